@@ -1,0 +1,12 @@
+#include "app/commands.h"
+
+namespace app {
+
+std::string version() { return "globe " GLOBE_VERSION; }
+
+void add_commands(CLI::App& program, int& exit_status) {
+  static_cast<void>(program);
+  static_cast<void>(exit_status);
+}
+
+}  // namespace app

@@ -1,0 +1,17 @@
+# Flags every target of ours is built with. -ffp-contract=off keeps the geometry the same on every machine:
+# a fused multiply-add rounds differently from the two operations it replaces (HARD-CASES H5, H8).
+add_library(globe_flags INTERFACE)
+target_include_directories(globe_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(globe_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -ffp-contract=off)
+if(GLOBE_SANITIZE)
+  target_compile_options(globe_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(globe_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+# globe_library(NAME [PUBLIC libs...] [PRIVATE libs...]): a static library of every .cpp in this folder.
+function(globe_library name)
+  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_library(${name} STATIC ${sources})
+  target_link_libraries(${name} PUBLIC globe_flags ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+endfunction()

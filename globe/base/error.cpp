@@ -1,0 +1,1 @@
+#include "globe/base/error.h"
