@@ -104,7 +104,7 @@ dvec3 node_direction(const Node& node) {
 Node fold(const Node& plane) {
   const int n = nodes_per_side(plane.level);
   Node p = plane;
-  for (int turn = 0; turn < 8; ++turn) {
+  for (int turn = 0; turn < 64; ++turn) {
     const int a = n - p.i;
     const int b = n - p.j;
     if (p.j < 0) {

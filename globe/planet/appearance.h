@@ -1,0 +1,26 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace globe::planet {
+
+/// What the look of the ground at a node is decided from.
+struct Ground {
+  double height_m = 0;    ///< solid ground
+  glm::dvec2 slope{0.0};  ///< rise over run of the drawn ground along two perpendicular directions
+  double cavity = 0;  ///< height above the mean of the neighbours, in cells: > 0 on a crest, < 0 in a hollow
+  double sin_latitude = 0;
+  double edge_m = 1;  ///< distance between neighbouring nodes of the level being coloured
+  float roughness = 0;
+  float mottle = 0;
+  glm::vec3 color{0.0f};  ///< ground colour of the map, linear light; ignored unless has_color
+  bool has_color = false;
+  bool has_sea = false;  ///< ground below height 0 is under water
+};
+
+/// Albedo of the ground, linear light, [0, 1] a channel: the map's colour with the detail it is too coarse to
+/// hold, or height-and-slope colours (Christopoulos 5.4.1) where there is no map.
+glm::vec3 albedo(const Ground& ground);
+
+}  // namespace globe::planet

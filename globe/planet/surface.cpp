@@ -1,0 +1,223 @@
+#include "globe/planet/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "globe/planet/synthesis.h"
+
+namespace globe::planet {
+namespace {
+
+constexpr int kRootLevel = 6;  ///< 64 cells a side: the finest level that is one tile a diamond
+
+struct Range {
+  int first_i, last_i, first_j, last_j;
+};
+
+Range node_range(const TileId& id, bool own_nodes_only) {
+  const int guard = own_nodes_only ? 0 : kTileGuard;
+  return {id.first_i() - guard, id.first_i() + id.cells() + guard, id.first_j() - guard,
+          id.first_j() + id.cells() + guard};
+}
+
+/// Linear light of an sRGB value in [0, 1] (IEC 61966-2-1).
+float linear_from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
+
+PlanetInfo builtin_info(std::uint64_t seed) {
+  PlanetInfo info;
+  info.name = "procedural:" + std::to_string(seed);
+  info.body = "other";
+  info.vertical_datum = "ellipsoid";
+  return info;
+}
+
+}  // namespace
+
+SurfaceTile::SurfaceTile(const TileId& tile) : id(tile), height(tile) {
+  channels.fill(TileValues<float>(tile));
+}
+
+std::size_t Surface::TileHash::operator()(const TileId& id) const {
+  return static_cast<std::size_t>(
+      vertex_hash(static_cast<std::uint64_t>(id.d * 64 + id.level), {id.ti, id.tj, 0}));
+}
+
+std::shared_ptr<const Surface> Surface::builtin(std::uint64_t seed, std::size_t cache_bytes) {
+  return std::shared_ptr<const Surface>(new Surface(builtin_info(seed), nullptr, seed, cache_bytes));
+}
+
+std::shared_ptr<const Surface> Surface::from_dataset(std::shared_ptr<const Dataset> dataset,
+                                                     std::size_t cache_bytes) {
+  PlanetInfo info = dataset->info();
+  return std::shared_ptr<const Surface>(new Surface(std::move(info), std::move(dataset), 1, cache_bytes));
+}
+
+Surface::Surface(PlanetInfo info, std::shared_ptr<const Dataset> dataset, std::uint64_t seed,
+                 std::size_t cache_bytes)
+    : info_(std::move(info)), dataset_(std::move(dataset)), seed_(seed), cache_bytes_(cache_bytes) {
+  if (dataset_) {
+    const LayerInfo* heights = dataset_->layer("height");
+    const LayerInfo* colors = dataset_->layer("color");
+    data_level_ = heights ? heights->level : 0;
+    color_level_ = colors ? colors->level : -1;
+  }
+  make_roots();
+}
+
+double Surface::root_edge() const { return ellipsoid().mean_radius() * std::numbers::pi / 2.0; }
+
+void Surface::make_roots() {
+  for (int level = 0; level <= kRootLevel; ++level) {
+    std::vector<SurfaceTile> tiles;
+    for (int d = 0; d < kDiamonds; ++d) tiles.emplace_back(TileId{d, level, 0, 0});
+    const auto each = [&](auto member, auto type) {
+      using T = decltype(type);
+      Whole<T> whole;
+      for (std::size_t d = 0; d < kDiamonds; ++d) whole[d] = member(tiles[d]);
+      if (level > 0) {
+        Whole<T> parents;
+        for (std::size_t d = 0; d < kDiamonds; ++d) {
+          SurfaceTile parent = *roots_[static_cast<std::size_t>(level) - 1][d];
+          parents[d] = member(parent);
+        }
+        predict(parents, whole);
+      }
+      for (std::size_t d = 0; d < kDiamonds; ++d) member(tiles[d]) = whole[d];
+    };
+    const auto fold_guard = [&](auto member, auto type) {
+      Whole<decltype(type)> whole;
+      for (std::size_t d = 0; d < kDiamonds; ++d) whole[d] = member(tiles[d]);
+      fill_guard(whole);
+      for (std::size_t d = 0; d < kDiamonds; ++d) member(tiles[d]) = whole[d];
+    };
+    const auto height = [](SurfaceTile & tile) -> auto& { return tile.height; };
+    each(height, 0.0);
+    for (std::size_t c = 0; c < kChannels; ++c)
+      each(
+          [c](SurfaceTile & tile) -> auto& { return tile.channels[c]; }, 0.0f);
+    for (SurfaceTile& tile : tiles) finish_tile(tile, true);
+    fold_guard(height, 0.0);
+    if (tiles[0].relief)
+      fold_guard(
+          [](SurfaceTile & tile) -> auto& { return *tile.relief; }, 0.0);
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      fold_guard(
+          [c](SurfaceTile & tile) -> auto& { return tile.channels[c]; }, 0.0f);
+    }
+    for (std::size_t d = 0; d < kDiamonds; ++d) {
+      roots_[static_cast<std::size_t>(level)][d] = std::make_shared<const SurfaceTile>(std::move(tiles[d]));
+    }
+  }
+}
+
+std::shared_ptr<const SurfaceTile> Surface::tile(const TileId& id) const {
+  if (id.level <= kRootLevel)
+    return roots_[static_cast<std::size_t>(id.level)][static_cast<std::size_t>(id.d)];
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = cache_.find(id); found != cache_.end()) {
+      recent_.splice(recent_.begin(), recent_, found->second);
+      return found->second->tile;
+    }
+  }
+  std::shared_ptr<const SurfaceTile> made = make_tile(id);
+  const std::lock_guard lock(mutex_);
+  if (const auto found = cache_.find(id); found != cache_.end()) return found->second->tile;
+  recent_.push_front({id, made});
+  cache_[id] = recent_.begin();
+  const std::size_t bytes_per_tile =
+      made->height.values.size() * (sizeof(double) * (made->relief ? 2 : 1) + sizeof(float) * kChannels);
+  while (cache_.size() > 64 && cache_.size() * bytes_per_tile > cache_bytes_) {
+    cache_.erase(recent_.back().id);
+    recent_.pop_back();
+  }
+  return made;
+}
+
+std::shared_ptr<const SurfaceTile> Surface::make_tile(const TileId& id) const {
+  const std::shared_ptr<const SurfaceTile> parent = tile(id.parent());
+  auto child = std::make_shared<SurfaceTile>(id);
+  predict(parent->height, child->height);
+  for (std::size_t c = 0; c < kChannels; ++c) predict(parent->channels[c], child->channels[c]);
+  finish_tile(*child, false);
+  return child;
+}
+
+void Surface::finish_tile(SurfaceTile& tile, bool own_nodes_only) const {
+  if (dataset_ == nullptr) {
+    synthesise_builtin(seed_, root_edge(), own_nodes_only, tile);
+    return;
+  }
+  if (tile.id.level <= color_level_) read_layer("color", tile, own_nodes_only);
+  if (tile.id.level <= data_level_) {
+    read_layer("height", tile, own_nodes_only);
+    if (tile.id.level < data_level_ && dataset_->layer("relief") != nullptr) {
+      tile.relief.emplace(tile.id);
+      read_layer("relief", tile, own_nodes_only);
+    }
+    if (tile.id.level == data_level_) measure_roughness(root_edge(), tile);
+  } else {
+    synthesise_detail(seed_, root_edge(), tile.id.level - data_level_, own_nodes_only, tile);
+  }
+}
+
+void Surface::read_layer(const char* layer, SurfaceTile& tile, bool own_nodes_only) const {
+  const TileId& id = tile.id;
+  const int n = nodes_per_side(id.level);
+  const auto channels = static_cast<std::size_t>(dataset_->layer(layer)->channels);
+  const Range range = node_range(id, own_nodes_only);
+  const auto store = [&](int i, int j, const float* value) {
+    if (channels == 3) {
+      tile.channel(Channel::kRed).at(i, j) = linear_from_srgb(value[0]);
+      tile.channel(Channel::kGreen).at(i, j) = linear_from_srgb(value[1]);
+      tile.channel(Channel::kBlue).at(i, j) = linear_from_srgb(value[2]);
+    } else if (std::strcmp(layer, "relief") == 0) {
+      tile.relief->at(i, j) = value[0];
+    } else {
+      tile.height.at(i, j) = value[0];
+    }
+  };
+  const int i0 = std::max(range.first_i, 0);
+  const int i1 = std::min(range.last_i, n);
+  const int j0 = std::max(range.first_j, 0);
+  const int j1 = std::min(range.last_j, n);
+  const int ni = i1 - i0 + 1;
+  const int nj = j1 - j0 + 1;
+  std::vector<float> values(static_cast<std::size_t>(ni) * static_cast<std::size_t>(nj) * channels);
+  dataset_->read(layer, id.d, id.level, i0, j0, ni, nj, values.data());
+  for (int j = range.first_j; j <= range.last_j; ++j) {
+    for (int i = range.first_i; i <= range.last_i; ++i) {
+      if (i >= i0 && i <= i1 && j >= j0 && j <= j1) {
+        store(i, j,
+              &values[(static_cast<std::size_t>(j - j0) * static_cast<std::size_t>(ni) +
+                       static_cast<std::size_t>(i - i0)) *
+                      channels]);
+      } else {
+        const Node node = fold({id.d, id.level, i, j});
+        std::array<float, 4> one{};
+        dataset_->read(layer, node.d, node.level, node.i, node.j, 1, 1, one.data());
+        store(i, j, one.data());
+      }
+    }
+  }
+}
+
+double Surface::height(const Node& node) const { return tile(tile_of(node))->height.at(node.i, node.j); }
+
+double Surface::height(const dvec3& u, int level) const {
+  const Place place = locate(u, level);
+  const int n = nodes_per_side(level);
+  const int i = std::min(static_cast<int>(place.ij.x), n - 1);
+  const int j = std::min(static_cast<int>(place.ij.y), n - 1);
+  const double x = place.ij.x - i;
+  const double y = place.ij.y - j;
+  const auto at = [&](int di, int dj) { return height(Node{place.d, level, i + di, j + dj}); };
+  if (x + y <= 1.0) return (1.0 - x - y) * at(0, 0) + x * at(1, 0) + y * at(0, 1);
+  return (x + y - 1.0) * at(1, 1) + (1.0 - x) * at(0, 1) + (1.0 - y) * at(1, 0);
+}
+
+}  // namespace globe::planet

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <unordered_map>
+
+#include "globe/geo/ellipsoid.h"
+#include "globe/planet/dataset.h"
+#include "globe/planet/subdivision.h"
+
+namespace globe::planet {
+
+/// What a tile carries beside heights, one float a node. All are carried from level to level by the same
+/// stencil.
+enum class Channel {
+  kRed,  ///< ground colour in linear light, [0, 1]
+  kGreen,
+  kBlue,
+  kRoughness,   ///< how rough synthesised ground is here: 0 a salt flat, 1 high mountains
+  kProminence,  ///< height above the smoothed ground of the levels before, in units of that level's relief: <
+                ///< 0 valley
+  kMottle,      ///< a fractal without a unit that varies colours, about [-1, 1]
+  kContinent,   ///< built-in planet only: the field continents are cut from
+  kFold,        ///< built-in planet only: the field whose zero lines are mountain chains
+};
+inline constexpr std::size_t kChannels = 8;
+
+/// Everything known about the nodes of one tile. Immutable once made.
+struct SurfaceTile {
+  TileId id;
+  TileValues<double> height;  ///< metres above the ellipsoid
+  /// Heights filtered to this level, for slopes; empty when the same as `height` (from the data's finest
+  /// level on).
+  std::optional<TileValues<double>> relief;
+  std::array<TileValues<float>, kChannels> channels;
+
+  explicit SurfaceTile(const TileId& tile);
+
+  const TileValues<float>& channel(Channel c) const { return channels[static_cast<std::size_t>(c)]; }
+  TileValues<float>& channel(Channel c) { return channels[static_cast<std::size_t>(c)]; }
+  const TileValues<double>& shading_height() const { return relief ? *relief : height; }
+};
+
+/// The ground of a planet at any node and any level: data where there are data, synthesised below them.
+///
+/// Height is a function of the node alone. Tiles are made from their parents and kept in a cache of limited
+/// size, least recently used out first; every member is safe to call from any thread.
+class Surface {
+ public:
+  /// The built-in planet.
+  static std::shared_ptr<const Surface> builtin(std::uint64_t seed, std::size_t cache_bytes = kDefaultCache);
+  /// A planet made by `globe convert`.
+  static std::shared_ptr<const Surface> from_dataset(std::shared_ptr<const Dataset> dataset,
+                                                     std::size_t cache_bytes = kDefaultCache);
+
+  static constexpr std::size_t kDefaultCache = std::size_t{384} << 20;
+
+  std::shared_ptr<const SurfaceTile> tile(const TileId& id) const;
+
+  /// Height of a node, metres above the ellipsoid.
+  double height(const Node& node) const;
+  /// Height of the flat level-L trixel above a direction: linear between its three nodes.
+  double height(const dvec3& u, int level) const;
+
+  const PlanetInfo& info() const { return info_; }
+  const geo::Ellipsoid& ellipsoid() const { return info_.ellipsoid; }
+  /// Finest level with measured heights; what is finer is synthesised. The built-in planet has none: 0.
+  int data_level() const { return data_level_; }
+  bool has_colors() const { return color_level_ >= 0; }
+  /// True when ground below height 0 lies under a sea, which is then drawn as a flat surface at height 0.
+  bool has_sea() const { return dataset_ == nullptr; }
+  /// Length of a level-0 edge along the mean sphere, metres; a level-L edge is about 2^-L of it.
+  double root_edge() const;
+
+ private:
+  Surface(PlanetInfo info, std::shared_ptr<const Dataset> dataset, std::uint64_t seed,
+          std::size_t cache_bytes);
+
+  struct Entry {
+    TileId id;
+    std::shared_ptr<const SurfaceTile> tile;
+  };
+  struct TileHash {
+    std::size_t operator()(const TileId& id) const;
+  };
+
+  std::shared_ptr<const SurfaceTile> make_tile(const TileId& id) const;
+  void make_roots();
+  /// Fills data and synthesised detail into a predicted tile; `own_nodes_only` leaves the guard alone.
+  void finish_tile(SurfaceTile& tile, bool own_nodes_only) const;
+  void read_layer(const char* layer, SurfaceTile& tile, bool own_nodes_only) const;
+
+  PlanetInfo info_;
+  std::shared_ptr<const Dataset> dataset_;  ///< null for the built-in planet
+  std::uint64_t seed_;
+  int data_level_ = 0;
+  int color_level_ = -1;
+  std::array<std::array<std::shared_ptr<const SurfaceTile>, kDiamonds>, 7>
+      roots_;  ///< levels 0 to 6, always held
+
+  std::size_t cache_bytes_;
+  mutable std::mutex mutex_;
+  mutable std::list<Entry> recent_;  ///< most recently used first
+  mutable std::unordered_map<TileId, std::list<Entry>::iterator, TileHash> cache_;
+};
+
+}  // namespace globe::planet
