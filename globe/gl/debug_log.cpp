@@ -6,7 +6,8 @@ namespace {
 /// A thousand lines of the same complaint tell no more than the first few.
 constexpr std::size_t kMaxMessages = 100;
 
-bool is_fault(GLenum type, GLenum severity) {
+bool is_fault(GLenum source, GLenum type, GLenum severity) {
+  if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return false;
   if (type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR ||
       type == GL_DEBUG_TYPE_DEPRECATED_BEHAVIOR) {
     return true;
@@ -23,9 +24,9 @@ void DebugLog::listen() {
   glDebugMessageCallback(&DebugLog::receive, this);
 }
 
-void GLAPIENTRY DebugLog::receive(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length,
+void GLAPIENTRY DebugLog::receive(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei length,
                                   const GLchar* message, const void* user) {
-  if (!is_fault(type, severity)) return;
+  if (!is_fault(source, type, severity)) return;
   // GL hands the user pointer back as const; it is the non-const object given to glDebugMessageCallback.
   auto& messages = static_cast<DebugLog*>(const_cast<void*>(user))->messages_;
   if (messages.size() >= kMaxMessages) return;
