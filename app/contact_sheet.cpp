@@ -11,6 +11,11 @@ namespace app {
 namespace {
 
 constexpr std::uint8_t kGapShade = 24;
+/// OpenImageIO looks for it below /usr/share/fonts; on Debian it comes with ffmpeg. Its own default is not
+/// there.
+constexpr const char* kFont = "DejaVuSans";
+/// 1280x720 to 480x270 takes 40 ms; lanczos3, a little crisper, 230 (one thread).
+constexpr const char* kFilter = "triangle";
 
 /// Evenly spread over 0 to frames - 1, both ends included.
 std::vector<int> spread(int frames, int cells) {
@@ -28,7 +33,7 @@ OIIO::ImageSpec rgba_spec(int width, int height) { return {width, height, 4, OII
 void draw_caption(OIIO::ImageBuf& cell, const std::string& caption) {
   const int size = std::max(10, cell.spec().height / 16);
   const float white[4] = {1, 1, 1, 1};
-  OIIO::ImageBufAlgo::render_text(cell, size / 2, cell.spec().height - size / 2, caption, size, "", white,
+  OIIO::ImageBufAlgo::render_text(cell, size / 2, cell.spec().height - size / 2, caption, size, kFont, white,
                                   OIIO::ImageBufAlgo::TextAlignX::Left,
                                   OIIO::ImageBufAlgo::TextAlignY::Bottom, std::max(1, size / 12));
   // Taking the message clears it: OpenImageIO prints those that nobody took.
@@ -63,7 +68,7 @@ void ContactSheet::add(int frame, std::span<const std::uint8_t> rgba, const std:
   for (std::size_t i = 3; i < opaque.size(); i += 4) opaque[i] = 255;
   const OIIO::ImageBuf source(rgba_spec(frame_width_, frame_height_), opaque.data());
   OIIO::ImageBuf cell(rgba_spec(layout_.cell_width, cell_height_));
-  OIIO::ImageBufAlgo::resize(cell, source, "lanczos3", 0.0f, OIIO::ROI(), 1);
+  OIIO::ImageBufAlgo::resize(cell, source, kFilter, 0.0f, OIIO::ROI(), 1);
   if (!caption.empty()) draw_caption(cell, caption);
 
   const int index =

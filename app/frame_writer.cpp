@@ -140,7 +140,7 @@ std::vector<std::string> ffmpeg_input(const FrameOutput& output) {
           "-f",
           "rawvideo",
           "-pix_fmt",
-          "rgba",
+          "rgb0",
           "-video_size",
           std::to_string(output.width) + "x" + std::to_string(output.height),
           "-framerate",

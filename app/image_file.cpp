@@ -15,8 +15,8 @@ using globe::PendingFile;
 
 /// EXR carries a date; OpenImageIO would take today's.
 constexpr const char* kDate = "1970:01:01 00:00:00";
-/// zlib's level: 6 takes 1.5 times as long as 4 for files 2 % smaller.
-constexpr int kPngLevel = 4;
+/// zlib's level. A noisy 1280x720 takes 62 ms at level 2, 204 at the usual 6, which saves 6 % of the bytes.
+constexpr int kPngLevel = 2;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& why) {
   throw Error(path.string(), why, "check the folder and the free space of the disk");

@@ -178,6 +178,33 @@ TEST_P(Film, HasEveryFrame) {
   EXPECT_EQ(probe(folder / GetParam()), "64,48," + format + ",25/1,7");
 }
 
+/// Bytes of the first frame as ffmpeg decodes it, RGBA.
+std::string first_frame(const std::filesystem::path& path) {
+  const std::string command =
+      "ffmpeg -v error -i '" + path.string() + "' -frames:v 1 -f rawvideo -pix_fmt rgba - </dev/null";
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  std::string bytes(kWidth * kHeight * 4, '\0');
+  bytes.resize(std::fread(bytes.data(), 1, bytes.size(), pipe));
+  ::pclose(pipe);
+  return bytes;
+}
+
+TEST_P(Film, ShowsTheColoursAndNoTransparency) {
+  const ScratchFolder folder;
+  FrameSink sink(output_of(folder / GetParam()));
+  std::vector<std::uint8_t> orange;
+  for (int i = 0; i < kWidth * kHeight; ++i) orange.insert(orange.end(), {230, 120, 30, 0});
+  for (int k = 0; k < 3; ++k) sink.write(orange);
+  sink.finish();
+  const std::string seen = first_frame(folder / GetParam());
+  ASSERT_EQ(seen.size(), orange.size());
+  constexpr int kColourLoss = 4;  // 8-bit YUV and back
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const int expected = i % 4 == 3 ? 255 : orange[i];
+    ASSERT_NEAR(static_cast<std::uint8_t>(seen[i]), expected, kColourLoss) << i;
+  }
+}
+
 TEST_P(Film, HasTheSameBytesEveryTime) {
   const ScratchFolder folder;
   film(output_of(folder / GetParam()), 5);
