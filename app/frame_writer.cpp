@@ -151,7 +151,8 @@ std::vector<std::string> ffmpeg_input(const FrameOutput& output) {
 }
 
 /// H.264 that every player shows: 4:2:0, so even sizes (an odd picture gets one more black row or column),
-/// colours labelled BT.709. A fixed number of threads, since x264's bytes depend on it.
+/// colours labelled BT.709. Preset faster takes two thirds of medium's time for files 4 % larger. A fixed
+/// number of threads, since x264's bytes depend on it.
 std::vector<std::string> mp4_arguments() {
   return {"-vf",
           "pad=ceil(iw/2)*2:ceil(ih/2)*2,"
@@ -160,7 +161,7 @@ std::vector<std::string> mp4_arguments() {
           "-c:v",
           "libx264",
           "-preset",
-          "medium",
+          "faster",
           "-crf",
           "18",
           "-threads",
