@@ -12,4 +12,7 @@ void add_commands(CLI::App& program, int& exit_status);
 
 std::string version();
 
+void add_fly(CLI::App& program);
+void add_shot(CLI::App& program);
+
 }  // namespace app

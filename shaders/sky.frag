@@ -9,10 +9,10 @@ out vec4 color;
 const float kCosSunRadius = 0.9999892;  // 0.266 degrees
 
 void main() {
-  vec3 direction = normalize(ray);
+  vec3 direction = normalize(ray * view.rounding.xxy);
   vec3 light = vec3(0.0);
   vec3 through = vec3(1.0);
-  if (view.axes_km.z > 0.0) {
+  if (view.rounding.z > 0.0) {
     vec3 eye = view.eye_km.xyz;
     float ground = view.eye_km.w;
     float top = ground + kAirTop;
@@ -27,7 +27,7 @@ void main() {
       if (to > 0.0) light = inscattered(eye, direction, from, to, view.sun.xyz, ground, SKY_STEPS, through) * view.sun.w;
     }
   }
-  float beside = dot(direction, view.sun.xyz);
+  float beside = dot(normalize(ray), view.sun.xyz);
   light += through * view.sun.w * 60.0 * smoothstep(kCosSunRadius - 4e-6, kCosSunRadius + 4e-6, beside);
-  color = vec4(tone_mapped(light * view.axes_km.w), 1.0);
+  color = vec4(tone_mapped(light * view.rounding.w), 1.0);
 }

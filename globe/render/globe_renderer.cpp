@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -19,13 +20,13 @@ struct ViewBlock {
   glm::mat4 clip_from_relative;
   glm::vec4 eye_km;
   glm::vec4 sun;
-  glm::vec4 axes_km;
+  glm::vec4 rounding;
   glm::vec4 right;
   glm::vec4 up;
   glm::vec4 forward;
 };
 
-constexpr float kSunlight = 10.0f;  ///< sunlight above the air, in units of the tone curve's white
+constexpr float kSunlight = 4.0f;  ///< sunlight above the air, in units of the tone curve's white
 constexpr float kExposure = 1.0f;
 constexpr std::size_t kMaxInstances = 32768;
 constexpr float kLateFade = 0.1f;  ///< a level that arrives late morphs in by this much a frame
@@ -49,20 +50,14 @@ gl::Program ground_program(Kind kind, const RenderSettings& settings) {
 ViewBlock view_block(const Camera& camera, const planet::Surface& surface, const glm::dvec3& sun,
                      double near_m) {
   const geo::Ellipsoid& ellipsoid = surface.ellipsoid();
-  const double a = ellipsoid.a * 1e-3;
-  const double b = ellipsoid.b() * 1e-3;
-  // The air follows the ellipsoid; the sphere of the camera's own radius stands for it.
-  const double ground =
-      glm::length(geo::surface_point(
-          ellipsoid,
-          glm::normalize(camera.position * glm::dvec3(1.0 / (a * a), 1.0 / (a * a), 1.0 / (b * b))))) *
-      1e-3;
+  // The air follows the ellipsoid: scaled until that is a sphere, it is as thick everywhere.
+  const double radius = ellipsoid.mean_radius();
+  const glm::dvec3 rounding(radius / ellipsoid.a, radius / ellipsoid.a, radius / ellipsoid.b());
   ViewBlock block{};
   block.clip_from_relative = glm::mat4(clip_from_relative(camera, near_m));
-  block.eye_km = glm::vec4(glm::vec3(camera.position * 1e-3), static_cast<float>(ground));
+  block.eye_km = glm::vec4(glm::vec3(camera.position * rounding * 1e-3), static_cast<float>(radius * 1e-3));
   block.sun = glm::vec4(glm::vec3(sun), kSunlight);
-  block.axes_km = {static_cast<float>(1.0 / (a * a)), static_cast<float>(1.0 / (b * b)),
-                   has_air(surface.info()) ? 1.0f : 0.0f, kExposure};
+  block.rounding = {static_cast<float>(rounding.x), static_cast<float>(rounding.z), has_air(surface.info()) ? 1.0f : 0.0f, kExposure};
   block.right = glm::vec4(glm::vec3(camera.right * camera.tan_x()), 0.0f);
   block.up = glm::vec4(glm::vec3(camera.up * camera.tan_y()), 0.0f);
   block.forward = glm::vec4(glm::vec3(camera.forward), 0.0f);
@@ -190,6 +185,7 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   const DrawList list =
       make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), kLowestGround, camera,
                      stats.finest_level, fade, settings_.cull_patches);
+  stats.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   stats.patches = list.patches;
   draw_ground(list, stats);
   if (sky_) {

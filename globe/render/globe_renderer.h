@@ -37,6 +37,7 @@ struct FrameStats {
   std::size_t triangles = 0;
   std::size_t patches = 0;
   std::size_t upload_bytes = 0;
+  double cpu_ms = 0;  ///< choosing levels and patches: our own work, loading and the driver's left out
   int queued_jobs = 0;
   int finest_level = 0;
   bool complete = true;

@@ -53,20 +53,28 @@ float mie_phase(float cos_angle) {
   return 0.1193662f * (1.0f - g2) * (1.0f + cos_angle * cos_angle) / ((2.0f + g2) * base * sqrt(base));
 }
 
+// Distance along a ray of sample x in [0, 1]: samples crowd where the ray is lowest, at distance `lowest` between `from` and `to`,
+// for there the air is densest: the near end of a look upward, the far end of a look down, the middle of a look past the limb.
+float sample_distance(float x, float from, float lowest, float to) {
+  float begin = lowest > from + 1e-3f ? 0.0f : 0.5f;
+  float end = to > lowest + 1e-3f ? 1.0f : 0.5f;
+  float side = 2.0f * (begin + (end - begin) * x) - 1.0f;
+  return side < 0.0f ? lowest - (lowest - from) * side * side : lowest + (to - lowest) * side * side;
+}
+
 // Light scattered toward the eye between two distances along a ray (km), for sunlight of 1. `steps` is the knob: error falls
 // with its square. Twice-scattered light is added as a share of the once-scattered without direction.
 vec3 inscattered(vec3 eye, vec3 direction, float from, float to, vec3 sun, float ground, int steps, OUT(vec3) transmitted) {
   float cos_angle = dot(direction, sun);
   float phase_r = rayleigh_phase(cos_angle);
   float phase_m = mie_phase(cos_angle);
+  float lowest = clamp(-dot(eye, direction), from, to);
   vec3 light = vec3(0.0f);
   float column_r = 0.0f;
   float column_m = 0.0f;
   float previous = from;
   for (int k = 0; k < steps; ++k) {
-    // Steps grow with distance, so that both the near haze and the far limb are sampled.
-    float f = float(k + 1) / float(steps);
-    float next = from + (to - from) * f * f;
+    float next = sample_distance(float(k + 1) / float(steps), from, lowest, to);
     float length = next - previous;
     vec3 p = eye + direction * (0.5f * (previous + next));
     float r = sqrt(dot(p, p));
