@@ -39,7 +39,7 @@ Ellipsoid make_ellipsoid(double a, double f);
 /// Geodetic normal of a latitude and longitude in degrees.
 ///
 /// The angles are folded in degrees first, which is exact, so that longitudes 0, 90, 180, 270 and the poles
-/// land exactly on the axes; signed zeros are made positive. Latitudes outside [-90, 90] and NaN: asserted
+/// land exactly on the axes, and 45 degrees on HTM's vertices of level 1; signed zeros are made positive. Latitudes outside [-90, 90] and NaN: asserted
 /// against.
 dvec3 normal_from_degrees(double lat_deg, double lon_deg);
 
