@@ -56,10 +56,10 @@ Geodetic degrees_from_normal(const dvec3& u) {
 }
 
 dvec3 surface_point(const Ellipsoid& ellipsoid, const dvec3& u) {
-  const double a2 = ellipsoid.a * ellipsoid.a;
-  const double b2 = ellipsoid.b() * ellipsoid.b();
-  const double n = 1.0 / std::sqrt(a2 * (u.x * u.x + u.y * u.y) + b2 * (u.z * u.z));
-  return {a2 * u.x * n, a2 * u.y * n, b2 * u.z * n};
+  // The formula divided by a², with uz scaled by b/a first and divisions kept: exact on the axes.
+  const double w = (1.0 - ellipsoid.f) * u.z;
+  const double n = std::sqrt(u.x * u.x + u.y * u.y + w * w);
+  return {ellipsoid.a * (u.x / n), ellipsoid.a * (u.y / n), ellipsoid.b() * (w / n)};
 }
 
 dvec3 ecef_from_normal(const Ellipsoid& ellipsoid, const dvec3& u, double h_m) {
@@ -71,6 +71,7 @@ dvec3 ecef_from_geodetic(const Ellipsoid& ellipsoid, const Geodetic& geodetic) {
 }
 
 Geodetic geodetic_from_ecef(const Ellipsoid& ellipsoid, const dvec3& ecef) {
+  if (ecef == dvec3(0.0)) return {90.0, 0.0, -ellipsoid.b(), true};
   const GeographicLib::Geocentric earth(ellipsoid.a, ellipsoid.f);
   Geodetic result;
   earth.Reverse(ecef.x, ecef.y, ecef.z, result.lat_deg, result.lon_deg, result.h_m);
