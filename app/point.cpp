@@ -69,21 +69,23 @@ std::vector<std::string> words_of(std::string_view text) {
 }
 
 /// The words as one MGRS reference, if that is what they look like: zone and band (or A, B, Y, Z by the
-/// poles), two letters, digits; digits in two words must be as many in each.
+/// poles), two letters, an easting and a northing of as many digits. A space between digits must be in their
+/// middle.
 std::optional<std::string> mgrs_of(const std::vector<std::string>& words) {
   std::string joined;
-  for (const std::string& word : words) joined += word;
+  std::size_t last_space = 0;
+  for (const std::string& word : words) {
+    last_space = joined.size();
+    joined += word;
+  }
   std::transform(joined.begin(), joined.end(), joined.begin(), upper);
-  std::size_t k = 0;
-  while (k < joined.size() && k < 2 && is_digit(joined[k])) ++k;
-  if (joined.size() < k + 3 || !std::all_of(joined.begin() + static_cast<std::ptrdiff_t>(k),
-                                            joined.begin() + static_cast<std::ptrdiff_t>(k + 3), is_letter))
+  const std::size_t band = std::min(joined.find_first_not_of("0123456789"), std::size_t{3});
+  const std::size_t digits = joined.find_last_not_of("0123456789") + 1;
+  if (band > 2 || digits != band + 3 || !std::all_of(joined.data() + band, joined.data() + digits, is_letter))
     return std::nullopt;
-  if (k == 0 && std::string_view("ABYZ").find(joined[0]) == std::string_view::npos) return std::nullopt;
-  if (!std::all_of(joined.begin() + static_cast<std::ptrdiff_t>(k + 3), joined.end(), is_digit))
-    return std::nullopt;
-  const std::size_t digits = joined.size() - k - 3;
-  if (words.size() > 1 && is_digit(words.back()[0]) && 2 * words.back().size() != digits) return std::nullopt;
+  if (band == 0 && std::string_view("ABYZ").find(joined[0]) == std::string_view::npos) return std::nullopt;
+  const std::size_t count = joined.size() - digits;
+  if (count == 0 || (last_space > digits && last_space != digits + count / 2)) return std::nullopt;
   return joined;
 }
 
