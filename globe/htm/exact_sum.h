@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace globe::htm {
+
+/// A sum of products of three doubles, kept without any rounding.
+///
+/// One fixed-point number in two's complement, wide enough for every product of three doubles of magnitude
+/// below 2^100, subnormal ones included: the mantissas multiply to 159 bits, which are added at their place.
+/// The other classic, expansions of doubles (Shewchuk 1997, "Adaptive Precision Floating-Point Arithmetic and
+/// Fast Robust Geometric Predicates"), takes as long but loses its error terms to underflow near the axes,
+/// where coordinates of 1e-300 are ordinary (latitude 1e-298).
+class ExactSum {
+ public:
+  /// Adds a * b * c. REQUIRES: finite, each of magnitude below 2^100; at most 2^20 calls.
+  void add(double a, double b, double c);
+
+  /// -1, 0 or 1: the sign of the exact sum.
+  int sign() const;
+
+ private:
+  static constexpr std::size_t kWords = 58;  // 3712 bits
+  static constexpr int kExponentOfBit0 =
+      -3378;                                   // three times the exponent of a subnormal's last mantissa bit
+  std::array<std::uint64_t, kWords> words_{};  // least significant first
+};
+
+}  // namespace globe::htm
