@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "globe/planet/dataset.h"
+
+namespace globe::planet {
+
+inline constexpr int kFormatVersion = 1;
+inline constexpr const char* kPlanetFileName = "planet.json";
+
+/// A file of a planet folder, as planet.json lists it.
+struct StoredFile {
+  std::string name;
+  std::uint64_t bytes = 0;
+  std::uint64_t hash = 0;  ///< XXH3, 64 bits, of the whole file
+
+  friend bool operator==(const StoredFile&, const StoredFile&) = default;
+};
+
+/// The files of one layer, diamond 0 to 3; none when no level is stored.
+struct StoredLayer {
+  LayerInfo info;
+  int stored_level = -1;  ///< finest level in the files; finer ones up to info.level are those of "height"
+  std::vector<StoredFile> files;
+
+  friend bool operator==(const StoredLayer&, const StoredLayer&) = default;
+};
+
+/// planet.json: what the folder holds. `info.layers` repeats `layers[].info`.
+struct PlanetFile {
+  PlanetInfo info;
+  std::vector<StoredLayer> layers;
+
+  friend bool operator==(const PlanetFile&, const PlanetFile&) = default;
+};
+
+/// Reads FOLDER/planet.json. Throws globe::Error when it is absent, malformed or of a newer format version.
+PlanetFile read_planet_file(const std::filesystem::path& folder);
+
+/// Writes FOLDER/planet.json under a temporary name, syncs it to disk and renames it; `info.layers` and
+/// `info.id` are derived from `layers` and the rest.
+void write_planet_file(const std::filesystem::path& folder, PlanetFile file);
+
+/// Size and hash of a file on disk. Throws globe::Error when it cannot be read.
+StoredFile describe_file(const std::filesystem::path& path);
+
+/// Flushes a file or folder to disk. Throws globe::Error when that fails.
+void sync_to_disk(const std::filesystem::path& path);
+
+/// One line for each file of the planet whose bytes differ from what planet.json says; reads everything.
+std::vector<std::string> find_damage(const std::filesystem::path& folder);
+
+}  // namespace globe::planet
