@@ -16,8 +16,6 @@ namespace {
 /// Neighbours of a node in order around it; two that follow one another make a trixel with it.
 constexpr std::array<globe::planet::ivec2, 6> kAround{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
 
-constexpr int kLinesPerCell = 8;
-
 /// Name with the smallest diamond: all names of a vertex lead to the same arithmetic.
 Node canonical(const Node& node) {
   const globe::planet::Names all = globe::planet::names(node);
@@ -76,14 +74,22 @@ dvec3 trixel_centre(const dvec3& a, const dvec3& b, const dvec3& c) { return glm
 
 Footprint make_footprint(const MapGeometry& geometry, const SamplePlace& node,
                          const std::array<dvec3, 6>& centres, int count) {
-  Footprint footprint;
-  footprint.count = count;
+  std::array<Footprint::Corner, 6> corner{};  // relative to the node
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const SamplePlace place = place_of(geometry, centres[k]);
     int columns = place.x.whole - node.x.whole;
     if (columns > geometry.period / 2) columns -= geometry.period;
     if (columns < -geometry.period / 2) columns += geometry.period;
-    footprint.corner[k] = {columns + place.x.fraction, place.y.whole + place.y.fraction};
+    corner[k] = {columns + (place.x.fraction - node.x.fraction),
+                 (place.y.whole - node.y.whole) + (place.y.fraction - node.y.fraction)};
+  }
+  Footprint footprint;
+  footprint.count = count;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    const Footprint::Corner& opposite =
+        corner[(k + static_cast<std::size_t>(count / 2)) % static_cast<std::size_t>(count)];
+    footprint.corner[k] = {node.x.fraction + 0.5 * (corner[k].x - opposite.x),
+                           node.y.whole + (node.y.fraction + 0.5 * (corner[k].y - opposite.y))};
   }
   return footprint;
 }
@@ -109,21 +115,6 @@ double cap_rim(const MapGeometry& geometry, int level, bool north) {
                                                            node_direction({0, level, pole + step, pole}),
                                                            node_direction({0, level, pole, pole + step})));
   return rim.y.whole + rim.y.fraction;
-}
-
-Scanlines::Scanlines(const MapGeometry& geometry, int level) {
-  const double rows_per_cell = geometry.samples_per_quadrant() / globe::planet::nodes_per_side(level);
-  per_row_ = std::max(1, static_cast<int>(std::ceil(kLinesPerCell / rows_per_cell)));
-  const auto sine = [&](double y) { return std::sin(latitude_of(geometry, y) * std::numbers::pi / 180.0); };
-  weights_.resize(static_cast<std::size_t>(geometry.height) * static_cast<std::size_t>(per_row_));
-  for (int line = 0; line < count(); ++line) {
-    const double half = 0.5 / per_row_;
-    weights_[static_cast<std::size_t>(line)] = sine(y(line) - half) - sine(y(line) + half);
-  }
-}
-
-int Scanlines::first_from(double y) const {
-  return std::clamp(static_cast<int>(std::ceil((y + 0.5) * per_row_ - 0.5)), 0, count());
 }
 
 }  // namespace converters

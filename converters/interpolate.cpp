@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace converters {
 namespace {
@@ -66,7 +67,7 @@ int crossings(const Footprint& footprint, double y, std::array<double, 6>& out) 
   for (int k = 0; k < footprint.count; ++k) {
     Footprint::Corner a = footprint.corner[static_cast<std::size_t>(k)];
     Footprint::Corner b = footprint.corner[static_cast<std::size_t>((k + 1) % footprint.count)];
-    if (b.y < a.y) std::swap(a, b);  // one direction only: both cells beside an edge get the same bits
+    if (b.y < a.y) std::swap(a, b);
     if (y < a.y || y >= b.y) continue;
     const double x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
     int at = count++;
@@ -77,13 +78,32 @@ int crossings(const Footprint& footprint, double y, std::array<double, 6>& out) 
   return count;
 }
 
-/// Adds the line's band between two columns.
-void add_line(const Window& window, const Scanlines& lines, int line, double a, double b, Sum& sum) {
-  const double y = lines.y(line);
+/// Lines of constant latitude across a range of rows: symmetric about its middle, no farther apart than rows.
+struct Lines {
+  double first;
+  double step;
+  int count;
+
+  Lines(double top, double bottom) {
+    constexpr int kLeast = 8;
+    count = std::max(kLeast, static_cast<int>(std::ceil(bottom - top)));
+    step = (bottom - top) / count;
+    first = top + 0.5 * step;
+  }
+  double y(int line) const { return first + line * step; }
+};
+
+/// Area of a strip along a row for one column, up to a constant factor; 0 beyond the poles.
+double strip_weight(const MapGeometry& geometry, double y) {
+  return std::cos(latitude_of(geometry, y) * std::numbers::pi / 180.0);
+}
+
+/// Adds the strip along y between two columns.
+void add_strip(const Window& window, double y, double a, double b, double weight, Sum& sum) {
   const int row = static_cast<int>(std::floor(y));
   const double below = y - row;
-  integrate(window, row, a, b, lines.weight(line) * (1.0 - below), sum);
-  if (below > 0.0) integrate(window, row + 1, a, b, lines.weight(line) * below, sum);
+  integrate(window, row, a, b, weight * (1.0 - below), sum);
+  if (below > 0.0) integrate(window, row + 1, a, b, weight * below, sum);
 }
 
 }  // namespace
@@ -136,43 +156,43 @@ bool bicubic(const Window& window, int channels, const SamplePlace& place, float
   return true;
 }
 
-bool footprint_mean(const Window& window, int channels, const Scanlines& lines, const Footprint& footprint,
-                    const SamplePlace& place, float* out) {
+bool footprint_mean(const Window& window, int channels, const MapGeometry& geometry,
+                    const Footprint& footprint, const SamplePlace& place, float* out) {
   Sum sum{};
   double whole = 0;
-  const int end = lines.first_from(footprint.max_y());
-  for (int line = lines.first_from(footprint.min_y()); line < end; ++line) {
+  const Lines lines(footprint.min_y(), footprint.max_y());
+  for (int line = 0; line < lines.count; ++line) {
+    const double y = std::clamp(lines.y(line), -0.5, geometry.height - 0.5);
+    const double weight = strip_weight(geometry, y);
     std::array<double, 6> x{};
-    const int count = crossings(footprint, lines.y(line), x);
+    const int count = crossings(footprint, y, x);
     for (std::size_t k = 0; k + 1 < static_cast<std::size_t>(count); k += 2) {
       if (x[k + 1] <= x[k]) continue;
-      add_line(window, lines, line, place.x.whole + x[k], place.x.whole + x[k + 1], sum);
-      whole += lines.weight(line) * (x[k + 1] - x[k]);
+      add_strip(window, y, place.x.whole + x[k], place.x.whole + x[k + 1], weight, sum);
+      whole += weight * (x[k + 1] - x[k]);
     }
   }
   return whole > 0.0 ? finish(window, channels, sum, whole, out) : bilinear(window, channels, place, out);
 }
 
-bool cap_mean(const SourceMap& map, const Scanlines& lines, double rim, bool north, float* out) {
-  const int split = lines.first_from(rim);
-  const int first = north ? 0 : split;
-  const int end = north ? split : lines.count();
+bool cap_mean(const SourceMap& map, double rim, bool north, float* out) {
+  const MapGeometry& geometry = map.geometry();
+  const Lines lines(north ? -0.5 : rim, north ? rim : geometry.height - 0.5);
   Sum sum{};
   double whole = 0;
   Window window;
-  window.width = map.geometry().period + 1;  // the first column again, to close the circle
+  window.width = geometry.period + 1;  // the first column again, to close the circle
   window.height = 2;
-  for (int line = first; line < end; ++line) {
-    const int row = static_cast<int>(std::floor(lines.y(line)));
-    if (line == first || row != window.y0) {
-      window.y0 = row;
-      map.read(window);
-    }
-    add_line(window, lines, line, 0.0, map.geometry().period, sum);
-    whole += lines.weight(line) * map.geometry().period;
+  for (int line = 0; line < lines.count; ++line) {
+    const double y = lines.y(line);
+    window.y0 = static_cast<int>(std::floor(y));
+    map.read(window);
+    const double weight = strip_weight(geometry, y);
+    add_strip(window, y, 0.0, geometry.period, weight, sum);
+    whole += weight * geometry.period;
   }
   return whole > 0.0 ? finish(window, map.channels(), sum, whole, out)
-                     : row_mean(map, north ? 0 : map.geometry().height - 1, out);
+                     : row_mean(map, north ? 0 : geometry.height - 1, out);
 }
 
 bool row_mean(const SourceMap& map, int y, float* out) {

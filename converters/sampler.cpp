@@ -46,12 +46,10 @@ bool is_pole(int level, int i, int j) {
 /// One block of nodes being sampled.
 class BlockSampler {
  public:
-  BlockSampler(const SourceMap& map, Filter filter, const Scanlines* lines, int d, int level,
-               const Rect& block, const RowSink& sink)
+  BlockSampler(const SourceMap& map, Filter filter, int d, int level, const Rect& block, const RowSink& sink)
       : map_(map),
         geometry_(map.geometry()),
         filter_(filter),
-        lines_(lines),
         d_(d),
         level_(level),
         block_(block),
@@ -142,7 +140,7 @@ class BlockSampler {
                  static_cast<int>(std::floor(footprint.min_y())) - 1,
                  x + static_cast<int>(std::floor(footprint.max_x())) + 1,
                  static_cast<int>(std::floor(footprint.max_y())) + 2};
-          // The scan lines reach half a sample beyond the outermost rows, no further.
+          // What is averaged reaches half a sample beyond the outermost rows, no further.
           own.y0 = std::max(own.y0, -1);
           own.y1 = std::min(own.y1, geometry_.height);
         }
@@ -183,13 +181,12 @@ class BlockSampler {
       case Filter::kArea:
         break;
     }
-    return footprint_mean(window_, map_.channels(), *lines_, footprints_[index(i, j)], place, out);
+    return footprint_mean(window_, map_.channels(), geometry_, footprints_[index(i, j)], place, out);
   }
 
   const SourceMap& map_;
   const MapGeometry& geometry_;
   Filter filter_;
-  const Scanlines* lines_;
   int d_;
   int level_;
   Rect block_;
@@ -203,8 +200,7 @@ class BlockSampler {
 };
 
 /// The value of both poles, the same in all four diamonds.
-void sample_poles(const SourceMap& map, Filter filter, const Scanlines* lines, int level,
-                  const RowSink& sink) {
+void sample_poles(const SourceMap& map, Filter filter, int level, const RowSink& sink) {
   const MapGeometry& geometry = map.geometry();
   for (const bool north : {true, false}) {
     const int at = north ? 0 : nodes_per_side(level);
@@ -213,7 +209,7 @@ void sample_poles(const SourceMap& map, Filter filter, const Scanlines* lines, i
     const int last = geometry.height - 1;
     const double rim = north ? 0.0 : last;
     const bool valid = filter == Filter::kArea
-                           ? cap_mean(map, *lines, cap_rim(geometry, level, north), north, value.data())
+                           ? cap_mean(map, cap_rim(geometry, level, north), north, value.data())
                            : row_mean(map, static_cast<int>(rim), value.data());
     if (!valid) map.fill(place, value.data());
     for (int d = 0; d < kDiamonds; ++d) sink(d, at, at, 1, value.data());
@@ -228,23 +224,20 @@ void sample_nodes(const SourceMap& map, Filter filter, int level, const RowSink&
   const int side = std::min(kBlockSide, n);
   const int across = n / side;
   const int blocks = kDiamonds * across * across;
-  std::optional<Scanlines> lines;
-  if (filter == Filter::kArea) lines.emplace(map.geometry(), level);
-  const Scanlines* const scan = lines ? &*lines : nullptr;
   std::atomic<int> done = 0;
   tbb::parallel_for(0, blocks, [&](int block) {
     const int d = block / (across * across);
     const int i = block % across * side;
     const int j = block / across % across * side;
     const Rect rect{i, j, i + side == n ? side + 1 : side, j + side == n ? side + 1 : side};
-    BlockSampler(map, filter, scan, d, level, rect, sink).run();
+    BlockSampler(map, filter, d, level, rect, sink).run();
     const int now = ++done;
     if (now % 64 == 0) {
       map.drop_pages();
       progress(double(now) / blocks);
     }
   });
-  sample_poles(map, filter, scan, level, sink);
+  sample_poles(map, filter, level, sink);
 }
 
 }  // namespace converters

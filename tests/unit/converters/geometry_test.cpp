@@ -86,57 +86,66 @@ TEST(MapGeometry, TurnsGeocentricRowsIntoGeodeticLatitudes) {
   EXPECT_NEAR(latitude_of(map, place.y.whole + place.y.fraction), 45.0, 1e-9);
 }
 
-TEST(Footprint, TilesThePlanetWithoutGapOrOverlap) {
+double length_on_row(const Footprint& footprint, double y) {
+  std::vector<double> x;
+  for (int k = 0; k < footprint.count; ++k) {
+    const auto a = footprint.corner[static_cast<std::size_t>(k)];
+    const auto b = footprint.corner[static_cast<std::size_t>((k + 1) % footprint.count)];
+    if ((y < a.y) != (y < b.y)) x.push_back(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
+  }
+  return x.empty() ? 0.0 : *std::max_element(x.begin(), x.end()) - *std::min_element(x.begin(), x.end());
+}
+
+TEST(Footprint, CoversThePlanetOnceOnTheWhole) {
   const MapGeometry map = test::geometry_of(360, 180);
-  for (const int level : {0, 1, 2, 5}) {
-    const Scanlines lines(map, level);
-    const int n = nodes_per_side(level);
-    // Length of every scan line inside footprints, each vertex once: must be a whole turn.
-    std::vector<double> covered(static_cast<std::size_t>(lines.count()), 0.0);
-    for (int d = 0; d < 4; ++d) {
-      for (int j = 0; j <= n; ++j) {
-        for (int i = 0; i <= n; ++i) {
-          const Node node{d, level, i, j};
-          if ((i == 0 && j == 0) || (i == n && j == n)) continue;
-          const globe::planet::Names names = globe::planet::names(node);
-          bool first_name = true;
-          for (int k = 1; k < names.count; ++k)
-            first_name = first_name && names.node[static_cast<std::size_t>(k)].d > d;
-          if (!first_name) continue;
-          const Footprint footprint = footprint_of(map, node);
-          for (int line = lines.first_from(footprint.min_y()); line < lines.first_from(footprint.max_y());
-               ++line) {
-            std::vector<double> x;
-            for (int k = 0; k < footprint.count; ++k) {
-              const auto a = footprint.corner[static_cast<std::size_t>(k)];
-              const auto b = footprint.corner[static_cast<std::size_t>((k + 1) % footprint.count)];
-              const double y = lines.y(line);
-              if ((y < a.y) != (y < b.y)) x.push_back(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
-            }
-            std::sort(x.begin(), x.end());
-            for (std::size_t k = 0; k + 1 < x.size(); k += 2)
-              covered[static_cast<std::size_t>(line)] += x[k + 1] - x[k];
-          }
+  const int level = 5;
+  const int n = nodes_per_side(level);
+  double covered = 0;
+  const double north = cap_rim(map, level, true);
+  const double south = cap_rim(map, level, false);
+  const auto each_row = [&](const auto& body) {
+    for (double y = -0.5 + 0.025; y < map.height - 0.5; y += 0.05)
+      body(y, std::cos(latitude_of(map, y) * kDegree));
+  };
+  each_row([&](double y, double weight) { covered += y < north || y > south ? weight * map.period : 0.0; });
+  for (int d = 0; d < 4; ++d) {
+    for (int j = 0; j <= n; ++j) {
+      for (int i = 0; i <= n; ++i) {
+        const Node node{d, level, i, j};
+        if ((i == 0 && j == 0) || (i == n && j == n)) continue;
+        const Footprint footprint = footprint_of(map, node);
+        each_row([&](double y, double weight) {
+          covered += weight * length_on_row(footprint, y) / globe::planet::names(node).count;
+        });
+      }
+    }
+  }
+  double whole = 0;
+  each_row([&](double, double weight) { whole += weight * map.period; });
+  EXPECT_NEAR(covered / whole, 1.0, 0.02);
+}
+
+TEST(Footprint, IsSymmetricAboutItsNodeAndTheSameByEveryName) {
+  const MapGeometry map = test::geometry_of(3600, 1800);
+  const int level = 6;
+  const int n = nodes_per_side(level);
+  for (int k = 1; k < n; ++k) {
+    for (const Node& node :
+         {Node{0, level, k, 0}, Node{1, level, n, k}, Node{2, level, k, k / 2}, Node{3, level, 0, k}}) {
+      const Footprint footprint = footprint_of(map, node);
+      const SamplePlace place = place_of(map, globe::planet::node_direction(node));
+      EXPECT_NEAR(footprint.min_x() + footprint.max_x(), 2.0 * place.x.fraction, 1e-9);
+      EXPECT_NEAR(footprint.min_y() + footprint.max_y(), 2.0 * (place.y.whole + place.y.fraction), 1e-9);
+      const globe::planet::Names names = globe::planet::names(node);
+      for (std::size_t name = 1; name < static_cast<std::size_t>(names.count); ++name) {
+        const Footprint other = footprint_of(map, names.node[name]);
+        for (std::size_t c = 0; c < 6; ++c) {
+          ASSERT_EQ(footprint.corner[c].x, other.corner[c].x);
+          ASSERT_EQ(footprint.corner[c].y, other.corner[c].y);
         }
       }
     }
-    const int north = lines.first_from(cap_rim(map, level, true));
-    const int south = lines.first_from(cap_rim(map, level, false));
-    for (int line = north; line < south; ++line)
-      ASSERT_NEAR(covered[static_cast<std::size_t>(line)], map.period, 1e-9)
-          << "level " << level << " line " << line;
   }
-}
-
-TEST(Scanlines, WeighsBandsByTheirAreaOnTheSphere) {
-  const MapGeometry map = test::geometry_of(36, 18);
-  const Scanlines lines(map, 4);
-  double sum = 0;
-  for (int line = 0; line < lines.count(); ++line) sum += lines.weight(line);
-  EXPECT_NEAR(sum, 2.0, 1e-12);
-  EXPECT_NEAR(lines.weight(0) / lines.weight(lines.count() / 2),
-              (1.0 - std::cos(180.0 / lines.count() * kDegree)) / std::sin(180.0 / lines.count() * kDegree),
-              1e-9);
 }
 
 }  // namespace

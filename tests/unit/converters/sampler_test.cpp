@@ -1,6 +1,7 @@
 #include "converters/sampler.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <cmath>
@@ -79,11 +80,14 @@ TEST(SampleNodes, FollowsASmoothFunctionWithinTheErrorOfTheFilter) {
               step * step / 4 + 1e-7)
         << level;
   }
-  for (const int level : {5, 7, 9}) {
+  for (const int level : {4, 6, 9}) {
     const double cell = 0.5 * std::numbers::pi / nodes_per_side(level);
-    EXPECT_LE(largest_error(test::sample(map, Filter::kArea, level, budget), cos_cos),
-              cell * cell + step * step / 2)
-        << level;
+    for_each_node(test::sample(map, Filter::kArea, level, budget), [&](const Node& node, float value) {
+      const Geodetic at = degrees_from_normal(node_direction(node));
+      // Near a pole footprints are wide in longitude and no longer small figures of the sphere.
+      const double bound = std::abs(at.lat_deg) < 80.0 ? cell * cell + step * step / 2 : 0.05 * cell;
+      ASSERT_NEAR(value, cos_cos(at.lat_deg, at.lon_deg), bound) << level;
+    });
   }
 }
 
@@ -106,16 +110,17 @@ TEST(SampleNodes, GivesALinearGradientAlongAMeridianAcrossThePole) {
   // On the plane tangent at the pole x = colatitude * cos(lon) is linear: what comes over the pole must fit.
   MemoryBudget budget = plenty();
   const auto plane = [](double lat, double lon) { return (90.0 - lat) * std::cos(lon * kDegree); };
-  const SourceMap map = height_map(geometry_of(1440, 720), plane, budget);
+  const SourceMap map = height_map(geometry_of(720, 360), plane, budget);
   for (const Filter filter : {Filter::kBilinear, Filter::kBicubic, Filter::kArea}) {
-    const NodeGrid<float> grid = test::sample(map, filter, 10, budget);
+    const NodeGrid<float> grid = test::sample(map, filter, 9, budget);
     double error = 0;
     for_each_node(grid, [&](const Node& node, float value) {
       const Geodetic at = degrees_from_normal(node_direction(node));
       if (at.lat_deg > 89.0)
         error = std::max(error, std::abs(static_cast<double>(value) - plane(at.lat_deg, at.lon_deg)));
     });
-    EXPECT_LE(error, 0.002) << static_cast<int>(filter);
+    // Beside the pole a cell of 0.18 degrees spans 90 degrees of longitude: its mean is a tenth off.
+    EXPECT_LE(error, filter == Filter::kArea ? 0.024 : 0.004) << static_cast<int>(filter);
   }
 }
 
@@ -164,53 +169,41 @@ TEST(SampleNodes, KeepsCoarseNodesAsSubsetOfFineOnesForInterpolation) {
   });
 }
 
-TEST(SampleNodes, AreaFilterKeepsTheMeanOfThePlanet) {
-  // Sum over nodes of value times area of the node's cell equals the integral of the map: cells tile the
-  // planet. The cell areas come from the same filter applied to a map of ones on one scan line basis, so use
-  // latitude bands: a map that is 1 north of 30 degrees and 0 elsewhere holds a quarter of the sphere.
+TEST(SampleNodes, AreaFilterIsTheMeanOverTheNodesOwnFootprint) {
+  // Against brute force: points strewn over the footprint, each weighing cos(latitude).
   MemoryBudget budget = plenty();
-  const int level = 5;
-  const SourceMap map = height_map(
-      geometry_of(1440, 720), [](double lat, double) { return lat > 30.0 ? 1.0 : 0.0; }, budget);
-  const NodeGrid<float> grid = test::sample(map, Filter::kArea, level, budget);
-  const Scanlines lines(map.geometry(), level);
-  double sum = 0;
-  double area = 0;
-  for_each_node(grid, [&](const Node& node, float value) {
-    const globe::planet::Names names = globe::planet::names(node);
+  const auto wave = [](double lat, double lon) { return cos_cos(9 * lat + 20, 7 * lon); };
+  const SourceMap map = height_map(geometry_of(2880, 1440), wave, budget);
+  const MapGeometry& geometry = map.geometry();
+  for (const int level : {2, 3, 4}) {
+    const NodeGrid<float> grid = test::sample(map, Filter::kArea, level, budget);
     const int n = nodes_per_side(level);
-    if ((node.i == 0 && node.j == 0) || (node.i == n && node.j == n)) {
-      const bool north = node.i == 0;
-      const int split = lines.first_from(cap_rim(map.geometry(), level, north));
-      double cap = 0;
-      for (int line = north ? 0 : split; line < (north ? split : lines.count()); ++line)
-        cap += lines.weight(line);
-      cap *= map.geometry().period / double(names.count);
-      area += cap;
-      sum += cap * static_cast<double>(value);
-      return;
-    }
-    const Footprint footprint = footprint_of(map.geometry(), node);
-    double cell = 0;
-    for (int line = lines.first_from(footprint.min_y()); line < lines.first_from(footprint.max_y()); ++line) {
-      double low = 1e9;
-      double high = -1e9;
-      for (int k = 0; k < footprint.count; ++k) {
-        const auto a = footprint.corner[static_cast<std::size_t>(k)];
-        const auto b = footprint.corner[static_cast<std::size_t>((k + 1) % footprint.count)];
-        if ((lines.y(line) < a.y) == (lines.y(line) < b.y)) continue;
-        const double x = a.x + (b.x - a.x) * (lines.y(line) - a.y) / (b.y - a.y);
-        low = std::min(low, x);
-        high = std::max(high, x);
+    for (const Node& node : {Node{0, level, n / 2, n / 4}, Node{1, level, 1, 0}, Node{2, level, n, 0},
+                             Node{3, level, n - 1, n - 1}}) {
+      const Footprint footprint = footprint_of(geometry, node);
+      const int column = place_of(geometry, node_direction(node)).x.whole;
+      double sum = 0;
+      double weight = 0;
+      for (int b = 0; b < 400; ++b) {
+        for (int a = 0; a < 400; ++a) {
+          const double x = footprint.min_x() + (a + 0.5) / 400 * (footprint.max_x() - footprint.min_x());
+          const double y = footprint.min_y() + (b + 0.5) / 400 * (footprint.max_y() - footprint.min_y());
+          bool inside = false;
+          for (int k = 0; k < footprint.count; ++k) {
+            const auto p = footprint.corner[static_cast<std::size_t>(k)];
+            const auto q = footprint.corner[static_cast<std::size_t>((k + 1) % footprint.count)];
+            if ((y < p.y) != (y < q.y) && x < p.x + (q.x - p.x) * (y - p.y) / (q.y - p.y)) inside = !inside;
+          }
+          if (!inside || y < -0.5 || y > geometry.height - 0.5) continue;
+          const double lat = latitude_of(geometry, y);
+          sum += std::cos(lat * kDegree) * wave(lat, geometry.west_deg + (column + x) * geometry.step_deg);
+          weight += std::cos(lat * kDegree);
+        }
       }
-      cell += lines.weight(line) * (high - low);
+      EXPECT_NEAR(*grid.at(node.d, node.i, node.j), sum / weight, 0.003)
+          << level << ": " << node.d << " " << node.i << " " << node.j;
     }
-    cell /= names.count;
-    area += cell;
-    sum += cell * static_cast<double>(value);
-  });
-  EXPECT_NEAR(area, 2.0 * map.geometry().period, 1e-6 * area);
-  EXPECT_NEAR(sum / area, 0.25, 2e-4);
+  }
 }
 
 TEST(SampleNodes, AreaFilterAveragesNoiseWhereInterpolationDoesNot) {
@@ -250,6 +243,8 @@ TEST(SampleNodes, DoesNotDependOnTheNumberOfThreads) {
   for (const Filter filter : {Filter::kBicubic, Filter::kArea}) {
     const NodeGrid<float> reference = test::sample(map, filter, 8, budget);
     for (const int threads : {1, 2, 4}) {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(threads));
       tbb::task_arena arena(threads);
       arena.execute([&] {
         const NodeGrid<float> grid = test::sample(map, filter, 8, budget);
