@@ -19,8 +19,14 @@ double percentile(std::vector<double> values, double p) {
   return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
 }
 
-FlightStats::FlightStats(std::string renderer, std::string gl_version, int width, int height, int detail, int planet_level)
-    : renderer_(std::move(renderer)), gl_version_(std::move(gl_version)), width_(width), height_(height), detail_(detail), planet_level_(planet_level) {}
+FlightStats::FlightStats(std::string renderer, std::string gl_version, int width, int height, int detail,
+                         int planet_level)
+    : renderer_(std::move(renderer)),
+      gl_version_(std::move(gl_version)),
+      width_(width),
+      height_(height),
+      detail_(detail),
+      planet_level_(planet_level) {}
 
 void FlightStats::write(const std::string& path) const {
   using nlohmann::json;
@@ -28,17 +34,35 @@ void FlightStats::write(const std::string& path) const {
   std::vector<double> times;
   for (const Frame& f : frames_) {
     times.push_back(f.frame_ms);
-    frames.push_back({{"frame", f.frame}, {"lat", f.place.lat_deg}, {"lon", f.place.lon_deg}, {"alt_m", f.place.h_m},
-                      {"above_ground_m", f.above_ground_m}, {"frame_ms", f.frame_ms}, {"cpu_ms", f.drawn.cpu_ms},
-                      {"gpu_ms", f.gpu_ms}, {"triangles", f.drawn.triangles}, {"patches", f.drawn.patches},
-                      {"upload_bytes", f.drawn.upload_bytes}, {"queued_jobs", f.drawn.queued_jobs},
-                      {"finest_level", f.drawn.finest_level}, {"complete", f.drawn.complete}});
+    frames.push_back({{"frame", f.frame},
+                      {"lat", f.place.lat_deg},
+                      {"lon", f.place.lon_deg},
+                      {"alt_m", f.place.h_m},
+                      {"above_ground_m", f.above_ground_m},
+                      {"frame_ms", f.frame_ms},
+                      {"cpu_ms", f.drawn.cpu_ms},
+                      {"gpu_ms", f.gpu_ms},
+                      {"triangles", f.drawn.triangles},
+                      {"patches", f.drawn.patches},
+                      {"upload_bytes", f.drawn.upload_bytes},
+                      {"queued_jobs", f.drawn.queued_jobs},
+                      {"finest_level", f.drawn.finest_level},
+                      {"complete", f.drawn.complete}});
   }
-  const json document{{"renderer", renderer_}, {"gl_version", gl_version_}, {"width", width_}, {"height", height_},
-                      {"detail", detail_}, {"planet_level", planet_level_}, {"frames", frames},
-                      {"summary", {{"frames", frames_.size()}, {"frame_ms_median", percentile(times, 50)},
-                                   {"frame_ms_p10", percentile(times, 10)}, {"frame_ms_p90", percentile(times, 90)},
-                                   {"frame_ms_p99", percentile(times, 99)}, {"frame_ms_max", percentile(times, 100)}}}};
+  const json document{{"renderer", renderer_},
+                      {"gl_version", gl_version_},
+                      {"width", width_},
+                      {"height", height_},
+                      {"detail", detail_},
+                      {"planet_level", planet_level_},
+                      {"frames", frames},
+                      {"summary",
+                       {{"frames", frames_.size()},
+                        {"frame_ms_median", percentile(times, 50)},
+                        {"frame_ms_p10", percentile(times, 10)},
+                        {"frame_ms_p90", percentile(times, 90)},
+                        {"frame_ms_p99", percentile(times, 99)},
+                        {"frame_ms_max", percentile(times, 100)}}}};
   const std::string partial = path + ".partial";
   {
     std::ofstream file(partial);
@@ -56,19 +80,24 @@ std::string FlightStats::table(std::size_t gpu_bytes) const {
   char line[160];
   const int rows = std::min<int>(12, static_cast<int>(frames_.size()));
   for (int row = 0; row < rows; ++row) {
-    const auto k = rows == 1 ? 0 : static_cast<std::size_t>(row) * (frames_.size() - 1) / static_cast<std::size_t>(rows - 1);
+    const auto k =
+        rows == 1 ? 0
+                  : static_cast<std::size_t>(row) * (frames_.size() - 1) / static_cast<std::size_t>(rows - 1);
     const Frame& f = frames_[k];
-    std::snprintf(line, sizeof line, "%8d %12.1f m %6d %10zu %8zu %7.1f %8.0f KiB  %s\n", f.frame, f.above_ground_m,
-                  f.drawn.finest_level, f.drawn.triangles, f.drawn.patches, f.frame_ms,
+    std::snprintf(line, sizeof line, "%8d %12.1f m %6d %10zu %8zu %7.1f %8.0f KiB  %s\n", f.frame,
+                  f.above_ground_m, f.drawn.finest_level, f.drawn.triangles, f.drawn.patches, f.frame_ms,
                   static_cast<double>(f.drawn.upload_bytes) / 1024.0, f.drawn.complete ? "yes" : "no");
     text += line;
   }
   std::vector<double> times;
   for (const Frame& f : frames_) times.push_back(f.frame_ms);
-  std::snprintf(line, sizeof line, "%zu frames of %dx%d, detail %d: median %.1f ms, p90 %.1f, p99 %.1f, max %.1f; ", frames_.size(),
-                width_, height_, detail_, percentile(times, 50), percentile(times, 90), percentile(times, 99), percentile(times, 100));
+  std::snprintf(line, sizeof line,
+                "%zu frames of %dx%d, detail %d: median %.1f ms, p90 %.1f, p99 %.1f, max %.1f; ",
+                frames_.size(), width_, height_, detail_, percentile(times, 50), percentile(times, 90),
+                percentile(times, 99), percentile(times, 100));
   text += line;
-  std::snprintf(line, sizeof line, "%.0f MiB of textures\n", static_cast<double>(gpu_bytes) / (1024.0 * 1024.0));
+  std::snprintf(line, sizeof line, "%.0f MiB of textures\n",
+                static_cast<double>(gpu_bytes) / (1024.0 * 1024.0));
   return text + line + renderer_ + ", OpenGL " + gl_version_ + "\n";
 }
 

@@ -20,7 +20,8 @@ class FlightStats {
     globe::render::FrameStats drawn;
   };
 
-  FlightStats(std::string renderer, std::string gl_version, int width, int height, int detail, int planet_level);
+  FlightStats(std::string renderer, std::string gl_version, int width, int height, int detail,
+              int planet_level);
 
   void add(const Frame& frame) { frames_.push_back(frame); }
 

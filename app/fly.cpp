@@ -53,24 +53,28 @@ struct End {
   double above_ground = 0;
 };
 
-/// An end of the flight: ALT counts from the ellipsoid, or from the ground with --agl; without ALT `fallback` above ground.
+/// An end of the flight: ALT counts from the ellipsoid, or from the ground with --agl; without ALT `fallback`
+/// above ground.
 End parse_end(const std::string& text, bool agl, double fallback, const render::GlobeRenderer& renderer,
               const geo::Ellipsoid& ellipsoid) {
   const Point point = parse_point(text);
   geo::Geodetic place = point.position;
   if (!point.has_alt) return {place, fallback};
   if (agl) return {place, std::max(place.h_m, kClearance)};
-  return {place, std::max(renderer.height_above_ground(geo::ecef_from_geodetic(ellipsoid, place)), kClearance)};
+  return {place,
+          std::max(renderer.height_above_ground(geo::ecef_from_geodetic(ellipsoid, place)), kClearance)};
 }
 
-/// Camera on the path: heights of its ends count from the ground under them, in between from the ground's height
-/// interpolated along, but never below kClearance above the ground under the camera.
+/// Camera on the path: heights of its ends count from the ground under them, in between from the ground's
+/// height interpolated along, but never below kClearance above the ground under the camera.
 class Flight {
  public:
-  Flight(const render::GlobeRenderer& renderer, const geo::Ellipsoid& ellipsoid, const End& from, const End& to, const Look& look)
+  Flight(const render::GlobeRenderer& renderer, const geo::Ellipsoid& ellipsoid, const End& from,
+         const End& to, const Look& look)
       : renderer_(renderer),
         ellipsoid_(ellipsoid),
-        path_(normal(from), from.above_ground, normal(to), to.above_ground, ellipsoid.mean_radius(), look.heading_deg, look.pitch_deg),
+        path_(normal(from), from.above_ground, normal(to), to.above_ground, ellipsoid.mean_radius(),
+              look.heading_deg, look.pitch_deg),
         from_ground_(ground_height(from.place)),
         to_ground_(ground_height(to.place)) {}
 
@@ -85,7 +89,9 @@ class Flight {
   }
 
  private:
-  static glm::dvec3 normal(const End& end) { return geo::normal_from_degrees(end.place.lat_deg, end.place.lon_deg); }
+  static glm::dvec3 normal(const End& end) {
+    return geo::normal_from_degrees(end.place.lat_deg, end.place.lon_deg);
+  }
 
   double ground_height(geo::Geodetic place) const {
     place.h_m = kFinalHeight;
@@ -120,7 +126,8 @@ void run(const FlyOptions& options) {
   const ViewOptions& view = options.view;
   const Size size = parse_size(view.size);
   if (options.frames < 1 || options.frames > 1'000'000) {
-    throw globe::UsageError("--frames " + std::to_string(options.frames), "not 1 to 1000000", "give a number in that range");
+    throw globe::UsageError("--frames " + std::to_string(options.frames), "not 1 to 1000000",
+                            "give a number in that range");
   }
   const render::RenderSettings settings = render_settings(view);
   refuse_existing(options.stats, view.overwrite);
@@ -136,15 +143,17 @@ void run(const FlyOptions& options) {
 
   Look look = view.look.empty() ? Look{0.0, 0.0} : parse_look(view.look);
   const End to = parse_end(options.to, view.agl, kFinalHeight, renderer, ellipsoid);
-  const End from = options.from == "orbit" ? End{to.place, kOrbit * ellipsoid.mean_radius() / geo::kWgs84.mean_radius()}
-                                           : parse_end(options.from, view.agl, kFinalHeight, renderer, ellipsoid);
+  const End from = options.from == "orbit"
+                       ? End{to.place, kOrbit * ellipsoid.mean_radius() / geo::kWgs84.mean_radius()}
+                       : parse_end(options.from, view.agl, kFinalHeight, renderer, ellipsoid);
   const glm::dvec3 sun = sun_for(view, *surface, to.place.lon_deg);
   const Flight flight(renderer, ellipsoid, from, to, look);
 
   FrameSink sink({view.output, size.width, size.height, options.fps, view.overwrite});
   std::optional<ContactSheet> sheet;
   if (!options.contact_sheet.empty()) sheet.emplace(options.frames, size.width, size.height);
-  FlightStats stats(context.renderer(), context.version(), size.width, size.height, view.detail, surface->data_level());
+  FlightStats stats(context.renderer(), context.version(), size.width, size.height, view.detail,
+                    surface->data_level());
   Progress progress(progress_style(view.quiet || view.output == "-", false));
 
   globe::gl::TimerQuery timer = globe::gl::TimerQuery::create();
@@ -171,8 +180,10 @@ void run(const FlyOptions& options) {
   sink.finish();
   if (sheet) sheet->write(options.contact_sheet, view.overwrite);
   if (!options.stats.empty()) stats.write(options.stats);
-  if (!view.quiet) std::fputs(stats.table(renderer.gpu_bytes()).c_str(), view.output == "-" ? stderr : stdout);
-  if (!context.errors().empty()) throw globe::Error("OpenGL", context.errors().front(), "try --device software");
+  if (!view.quiet)
+    std::fputs(stats.table(renderer.gpu_bytes()).c_str(), view.output == "-" ? stderr : stdout);
+  if (!context.errors().empty())
+    throw globe::Error("OpenGL", context.errors().front(), "try --device software");
 }
 
 }  // namespace
@@ -181,10 +192,14 @@ void add_fly(CLI::App& program) {
   auto options = std::make_shared<FlyOptions>();
   CLI::App* command = program.add_subcommand("fly", "A flight over a planet, frame by frame");
   add_view_options(*command, options->view);
-  command->add_option("--from", options->from, "orbit (20,000 km above the target) or LAT,LON[,ALT]")->capture_default_str();
-  command->add_option("--to", options->to, "LAT,LON[,ALT]: the target (default: a scenic place); without ALT 200 m above ground");
+  command->add_option("--from", options->from, "orbit (20,000 km above the target) or LAT,LON[,ALT]")
+      ->capture_default_str();
+  command->add_option("--to", options->to,
+                      "LAT,LON[,ALT]: the target (default: a scenic place); without ALT 200 m above ground");
   command->add_option("--frames", options->frames, "number of frames")->capture_default_str();
-  command->add_option("--fps", options->fps, "frames a second of the film")->capture_default_str()->check(CLI::Range(0.1, 1000.0));
+  command->add_option("--fps", options->fps, "frames a second of the film")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 1000.0));
   command->add_option("--stats", options->stats, "JSON file for the figures of every frame");
   command->add_option("--contact-sheet", options->contact_sheet, "PNG file for twelve frames at a glance");
   command->add_flag("--wait", options->wait, "load each frame wholly: deterministic pictures");

@@ -182,6 +182,7 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   const ViewBlock view = view_block(camera, *surface_, sun, near_distance(surface_->ellipsoid(), above));
   view_.upload(0, &view, sizeof(view));
   view_.bind_base(GL_UNIFORM_BUFFER, 0);
+  const auto begin = std::chrono::steady_clock::now();
   const DrawList list =
       make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), kLowestGround, camera,
                      stats.finest_level, fade, settings_.cull_patches);
