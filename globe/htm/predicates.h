@@ -18,19 +18,18 @@ struct Orientation {
 /// three.
 int exact_orientation(const dvec3& a, const dvec3& b, const dvec3& c);
 
-/// Sign of det(a, b, c): rounded arithmetic where its error bound allows, exact otherwise.
+/// det(a, b, c) in rounded arithmetic, and a bound of its error.
 ///
-/// 1. The sign is that of the exact determinant of the doubles given, always.
-/// 2. orientation(a, b, c) = orientation(b, c, a) = -orientation(b, a, c).
-/// 3. It is 0 for three points on one great circle, two equal ones among them; there is no perturbation.
-///
-/// Rounded stage: det(a - c, b - c, c), which has the same value. The differences of near points are exact,
-/// so that the error shrinks with the triangle, as the determinant itself does; det(a, b, c) as it stands has
+/// Evaluated as det(a - c, b - c, c), which has the same value. The differences of near points are exact, so
+/// that the error shrinks with the triangle, as the determinant itself does; det(a, b, c) as it stands has
 /// the wrong sign in 40 % of the tests at level 30 (HARD-CASES H5). Bound: that of Shewchuk 1997 for
 /// orient3d, (7 + 56e) e times the sum of the absolute values, e = 2^-53, for the points a, b, 0 seen from c;
-/// and a floor for what underflow takes. Rate of the exact stage: none in 4e8 tests on random points at level
-/// 20 (tests/hard/orientation_test.cpp).
-inline Orientation orientation(const dvec3& a, const dvec3& b, const dvec3& c) {
+/// and a floor for what underflow takes.
+struct Determinant {
+  double value, error;
+};
+
+inline Determinant rounded_determinant(const dvec3& a, const dvec3& b, const dvec3& c) {
   constexpr double kRoundoff = 0x1p-53;
   constexpr double kRelativeError = (7.0 + 56.0 * kRoundoff) * kRoundoff;
   constexpr double kUnderflow = 0x1p-1000;
@@ -39,13 +38,24 @@ inline Orientation orientation(const dvec3& a, const dvec3& b, const dvec3& c) {
   const double yz = p.y * q.z, zy = p.z * q.y;
   const double zx = p.z * q.x, xz = p.x * q.z;
   const double xy = p.x * q.y, yx = p.y * q.x;
-  const double det = (yz - zy) * c.x + (zx - xz) * c.y + (xy - yx) * c.z;
   const double sum = (std::abs(yz) + std::abs(zy)) * std::abs(c.x) +
                      (std::abs(zx) + std::abs(xz)) * std::abs(c.y) +
                      (std::abs(xy) + std::abs(yx)) * std::abs(c.z);
-  const double error = kRelativeError * sum + kUnderflow;
-  if (det > error) return {1, false};
-  if (det < -error) return {-1, false};
+  return {(yz - zy) * c.x + (zx - xz) * c.y + (xy - yx) * c.z, kRelativeError * sum + kUnderflow};
+}
+
+/// Sign of det(a, b, c): rounded arithmetic where its error bound allows, exact otherwise.
+///
+/// 1. The sign is that of the exact determinant of the doubles given, always.
+/// 2. orientation(a, b, c) = orientation(b, c, a) = -orientation(b, a, c).
+/// 3. It is 0 for three points on one great circle, two equal ones among them; there is no perturbation.
+///
+/// Rate of the exact stage: none in 4e6 look-ups of random points at level 20
+/// (tests/hard/ownership_test.cpp).
+inline Orientation orientation(const dvec3& a, const dvec3& b, const dvec3& c) {
+  const Determinant det = rounded_determinant(a, b, c);
+  if (det.value > det.error) return {1, false};
+  if (det.value < -det.error) return {-1, false};
   return {exact_orientation(a, b, c), true};
 }
 

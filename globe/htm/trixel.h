@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -79,6 +80,12 @@ Trixel root_at(const dvec3& u);
 /// @param level  0..kMaxLevel
 /// @param exact_calls  if given, grows by the number of tests that rounded arithmetic could not decide
 Trixel trixel_at(const dvec3& u, int level, std::uint64_t* exact_calls = nullptr);
+
+/// The same for many directions, eight at a time: the same trixels, in about a fifth of the time (AVX-512). A
+/// direction with any test that rounded arithmetic cannot decide takes the walk of `trixel_at`, which counts.
+/// REQUIRES: result.size() == directions.size().
+void trixels_at(std::span<const dvec3> directions, int level, std::span<Trixel> result,
+                std::uint64_t* exact_calls = nullptr);
 
 }  // namespace globe::htm
 

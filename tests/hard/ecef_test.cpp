@@ -75,8 +75,8 @@ double distance_m(const Ellipsoid& e, const dvec3& point, const Geodetic& g) {
 
 double ulp(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()) - x; }
 
-/// The unit in the last place is that of the distance from the centre: longitude in degrees alone is rounded by
-/// 2.5e-16 rad near 180, which can be more than 4 units of the largest of three like coordinates.
+/// The unit in the last place is that of the distance from the centre: longitude in degrees alone is rounded
+/// by 2.5e-16 rad near 180, which can be more than 4 units of the largest of three like coordinates.
 double allowed_m(const dvec3& ecef, double h_m) {
   return h_m <= 1e6 ? kEcefError : std::max(kEcefError, kFarUlps * ulp(glm::length(ecef)));
 }

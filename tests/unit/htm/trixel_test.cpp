@@ -214,6 +214,21 @@ TEST(Trixel, AtCountsTheExactTests) {
   EXPECT_GT(exact_calls, 0u);
 }
 
+TEST(Trixel, ManyAtATimeAreTheSameAsOneByOne) {
+  std::mt19937_64 random(10);
+  for (std::size_t count = 0; count < 40; ++count) {
+    std::vector<dvec3> points;
+    for (std::size_t k = 0; k < count; ++k)
+      points.push_back(k % 5 == 0 ? corners(random_trixel(random, 12))[k % 3] : random_direction(random));
+    std::vector<Trixel> together(count), one_by_one;
+    std::uint64_t exact_together = 0, exact_one_by_one = 0;
+    trixels_at(points, 20, together, &exact_together);
+    for (const dvec3& u : points) one_by_one.push_back(trixel_at(u, 20, &exact_one_by_one));
+    EXPECT_EQ(together, one_by_one);
+    EXPECT_EQ(exact_together, exact_one_by_one);
+  }
+}
+
 TEST(Trixel, OppositeAxesFallToTheDocumentedRoots) {
   EXPECT_EQ(name(root_at({0, 0, 1})), "N3");
   EXPECT_EQ(name(root_at({0, 0, -1})), "S0");
