@@ -113,8 +113,10 @@ void main() {
     float along = dot(view.eye_km.xyz, direction);
     float top = ground + kAirTop;
     float entry = radius > top ? max(-along - sqrt(max(along * along - radius * radius + top * top, 0.0)), 0.0) : 0.0;
-    shading.haze = inscattered(view.eye_km.xyz, direction, min(entry, away), away, sun, ground, HAZE_STEPS, left) * view.sun.w;
-    shading.sunlight = view.sun.w * left * sun_transmittance(max(height_km, 0.0), shading.lit.x, ground) * 0.3183099;
+    vec3 sun_here = sun_transmittance(max(height_km, 0.0), shading.lit.x, ground);
+    shading.haze = haze(view.eye_km.xyz, direction, min(entry, away), away, sun, view.sun_at_eye.xyz, sun_here, shading.lit.x,
+                        ground, HAZE_STEPS, left) * view.sun.w;
+    shading.sunlight = view.sun.w * left * sun_here * 0.3183099;
     shading.skylight = view.sun.w * left * sky_irradiance(max(height_km, 0.0), shading.lit.x) * 0.3183099;
   } else {
     shading.haze = vec3(0.0);
