@@ -1,0 +1,10 @@
+# Run by embed_shaders(): writes OUTPUT from FILES (a list of paths under FOLDER).
+set(text "#include \"globe/gl/embedded_shaders.h\"\n\n#include <array>\n\nnamespace globe::gl {\nnamespace {\n\n")
+list(LENGTH FILES count)
+string(APPEND text "const std::array<EmbeddedShader, ${count}> kFiles = {{\n")
+foreach(name IN LISTS FILES)
+  file(READ ${FOLDER}/${name} content)
+  string(APPEND text "{\"${name}\", R\"GLSL~(${content})GLSL~\"},\n")
+endforeach()
+string(APPEND text "}};\n\n}  // namespace\n\nstd::span<const EmbeddedShader> embedded_shaders() { return kFiles; }\n\n}  // namespace globe::gl\n")
+file(WRITE ${OUTPUT} "${text}")

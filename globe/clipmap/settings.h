@@ -1,0 +1,21 @@
+#pragma once
+
+namespace globe::clipmap {
+
+/// Sizes that follow from the detail asked for (DESIGN section 5).
+struct Settings {
+  int s = 64;              ///< side of the hexagon in cells, a multiple of 2m
+  int m = 8;               ///< cells a side of a patch, the largest power of two <= s / 8
+  int base_level = 6;      ///< l0, the largest level with 2^l0 <= s: covers the whole sphere, always resident
+  int shading_levels = 2;  ///< slopes and colours are this many levels finer than the triangles they cover
+
+  /// Settings for a hexagon of at least `detail` cells (16 .. 1024), rounded up to a multiple of 2m.
+  /// Throws UsageError outside that range.
+  static Settings for_detail(int detail, int shading_levels = 2);
+
+  int unit() const { return 2 * m; }                ///< regions are made of trixels of this many cells
+  int window() const { return 2 * s + 2 * m + 3; }  ///< nodes a side of a level's torus
+  int shading_window() const { return window() << shading_levels; }
+};
+
+}  // namespace globe::clipmap
