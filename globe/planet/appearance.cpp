@@ -32,11 +32,11 @@ vec3 water(float height) {
   return mix(mix(kDeepSea, vec3(0.010f, 0.048f, 0.085f), shelf), kShallows, near_shore);
 }
 
-/// Height of the lower limit of lasting snow, metres (Earth's: 5000 in the horse latitudes, 0 near 75
-/// degrees).
+/// Height of the lower limit of lasting snow, metres: Earth's, 5000 in the horse latitudes, 3000 in the Alps,
+/// 500 at 75 degrees.
 float snow_line(float sine) {
   const float s2 = sine * sine;
-  return 5100.0f - 5600.0f * s2 - 450.0f * std::max(0.0f, 1.0f - 9.0f * s2);
+  return 5200.0f - 3200.0f * s2 - 2000.0f * s2 * s2 * s2 - 450.0f * std::max(0.0f, 1.0f - 9.0f * s2);
 }
 
 vec3 ground_colors(const Ground& g) {

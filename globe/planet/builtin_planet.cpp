@@ -11,7 +11,7 @@ namespace globe::planet {
 namespace {
 
 constexpr float kSeaShare = 0.62f;
-constexpr double kHighest = 7000.0;  ///< detail below 20 km adds up to some 2000 m to either side
+constexpr double kHighest = 5600.0;  ///< detail below 20 km adds up to some 2000 m to either side
 constexpr double kDeepest = -7000.0;
 
 /// A seed for each field, apart by more than the octaves it uses.
@@ -64,9 +64,9 @@ double BuiltinPlanet::mountains_at(const dvec3& u, const Continent& continent) c
   if (belt == 0.0f) return 0.0;
   const float active = smooth_step(-0.25f, 0.3f, fractal_noise(seed_ + kActivity, u * 1.8, 2, 0.5f));
   const float land = smooth_step(-0.16f, 0.1f, continent.inland);
-  const float crest = ridged_noise(seed_ + kCrests, continent.warped * 11.0, 6, 0.6f);
+  const float crest = ridged_noise(seed_ + kCrests, continent.warped * 11.0, 5, 0.6f);
   const float rise = belt * std::sqrt(belt) * active;
-  const float on_land = 500.0f + 7600.0f * crest * std::sqrt(crest);
+  const float on_land = 300.0f + 6400.0f * crest * std::sqrt(crest);
   const float at_sea = 7500.0f * crest * crest;
   return rise * (land * on_land + (1.0f - land) * at_sea);
 }
@@ -77,10 +77,10 @@ BuiltinPlanet::Point BuiltinPlanet::at(const dvec3& u) const {
   const double mountains = mountains_at(u, continent);
   double height = 0.0;
   if (inland >= 0.0f) {
-    const float hills = fractal_noise(seed_ + kHills, u * 14.0, 6, 0.6f);
+    const float hills = fractal_noise(seed_ + kHills, u * 12.0, 5, 0.5f);
     const float plateau = smooth_step(0.55f, 1.1f, inland + 0.3f * hills);
     height =
-        380.0 * inland + 1300.0 * plateau + 260.0 * std::min(1.0f, 3.0f * inland) * std::max(-0.6f, hills);
+        380.0 * inland + 1300.0 * plateau + 220.0 * std::min(1.0f, 1.5f * inland) * std::max(-0.5f, hills);
   } else {
     const float floor = fractal_noise(seed_ + kSeaFloor, u * 9.0, 5, 0.5f);
     height = 900.0 * inland - 3700.0 * smooth_step(0.1f, 0.5f, -inland) +

@@ -10,8 +10,8 @@
 namespace globe::planet {
 namespace {
 
-constexpr float kMassifHeight = 0.034f;  ///< height of a massif over its wavelength, where roughness is 1
-constexpr float kValleyDepth = 0.042f;   ///< half a valley's depth over the wavelength
+constexpr float kMassifHeight = 0.055f;  ///< height of a massif over its wavelength, where roughness is 1
+constexpr float kValleyDepth = 0.085f;   ///< half a valley's depth over the wavelength
 constexpr float kWavesPerCell = 1.0f;
 constexpr float kCrestRounding = 0.012f;  ///< squared; 0 would fold crests sharply
 constexpr float kTurn = 6.2831853f;

@@ -237,7 +237,7 @@ void synthesise_mottle(std::uint64_t seed, bool own_nodes_only, SurfaceTile& til
   for_each_node(tile.id, own_nodes_only, [&](int i, int j, const Node& node) {
     if (!is_new(node)) return;
     const std::uint64_t hash = vertex_hash(seed, octahedral_key(node));
-    mottle.at(i, j) = 0.8f * mottle.at(i, j) + 0.4f * static_cast<float>(signed_unit(hash * kSecond));
+    mottle.at(i, j) = 0.88f * mottle.at(i, j) + 0.26f * static_cast<float>(signed_unit(hash * kSecond));
   });
 }
 

@@ -3,6 +3,7 @@
 ///   ground_preview (SEED | FOLDER) OUT.png top LAT LON LEVEL
 ///   ground_preview (SEED | FOLDER) OUT.png view LAT LON HEIGHT_ABOVE_GROUND_M HEADING [PITCH]
 ///   ground_preview (SEED | FOLDER) OUT.png orbit LAT LON
+///   ground_preview (SEED | FOLDER) - scenic 0 0
 
 #include <OpenImageIO/imageio.h>
 
@@ -16,6 +17,7 @@
 #include <numbers>
 #include <string>
 
+#include "globe/planet/scenic.h"
 #include "sampler.h"
 
 namespace globe::preview {
@@ -186,6 +188,10 @@ int run(const std::vector<std::string>& args) {
   } else if (args[3] == "view") {
     const double pitch = args.size() > 8 ? number(8) : -6.0;
     write(perspective_view(sampler, number(4), number(5), number(6), number(7), pitch), args[2]);
+  } else if (args[3] == "scenic") {
+    const planet::ScenicView view = planet::scenic_place(*surface);
+    std::cout << view.place.lat_deg << ' ' << view.place.lon_deg << ' ' << view.place.h_m << ' '
+              << view.heading_deg << '\n';
   } else {
     write(orbit_view(sampler, number(4), number(5)), args[2]);
   }
