@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "globe/planet/craters.h"
 #include "globe/planet/noise.h"
 
 namespace globe::planet {
@@ -67,12 +68,13 @@ void carve_valleys(const ReliefScale& scale, const dvec3& u, float roughness, ve
 
 ReliefSample massif_relief(const ReliefScale& scale, const dvec3& u, float roughness) {
   ReliefSample r;
+  if (scale.craters) return r;
   const vec3 up(u);
   float weight = 1.0f;
   double wave = 2.0 * scale.data_edge_m;
   for (std::uint32_t k = 0; k < 2 && wave >= scale.finest_wave_m; ++k, wave *= 0.5) {
     const NoiseSample n = gradient_noise(scale.seed + k, u * (scale.radius_m / wave));
-    const RoundedAbs fold = rounded_abs(n.value, 0.01f);
+    const RoundedAbs fold = rounded_abs(n.value, 0.03f);
     const float height = kMassifHeight * roughness * weight;
     r.height_m += height * static_cast<float>(wave) * (1.0f - 2.2f * fold.value);
     r.slope += tangent(n.gradient, up) * (-2.2f * height * fold.slope);
@@ -84,6 +86,7 @@ ReliefSample massif_relief(const ReliefScale& scale, const dvec3& u, float rough
 
 ReliefSample carved_relief(const ReliefScale& scale, const dvec3& u, float roughness,
                            const vec3& base_slope) {
+  if (scale.craters) return crater_relief(scale, u, roughness);
   if (roughness <= 0.0f) return {};
   ReliefSample r = massif_relief(scale, u, roughness);
   carve_valleys(scale, u, roughness, base_slope + r.slope, r);

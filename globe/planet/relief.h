@@ -18,7 +18,7 @@ struct ReliefScale {
   double radius_m = 1;
   double data_edge_m = 1;    ///< distance between data nodes
   double finest_wave_m = 1;  ///< carved to this wavelength
-  bool craters = false;
+  bool craters = false;      ///< carve craters (craters.h) instead; no massifs
 };
 
 struct ReliefSample {

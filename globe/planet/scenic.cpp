@@ -11,6 +11,8 @@ namespace {
 
 constexpr int kSearchLevel = 7;
 constexpr int kSummitLevel = 11;
+constexpr int kEyeLevel = 14;
+constexpr double kEyeHeight = 2.0;
 constexpr double kSummitReach = 60000.0;
 
 double bell(double x, double middle, double width) {
@@ -107,12 +109,12 @@ std::pair<double, ScenicView> best_view(const Surface& surface, const dvec3& sum
     const dvec3 away = geo::look_direction(frame, bearing, 0.0);
     for (double distance = 12000.0; distance <= 30000.0; distance += 3000.0) {
       const dvec3 u = moved(summit, away, distance / radius);
-      const double ground = surface.height(u, kSummitLevel);
+      const double ground = surface.height(u, kEyeLevel);
       if (surface.has_sea() && ground < 20.0) continue;
-      double between = -1e30;  // highest ground in the way, above the line of sight
-      for (double t = 0.1; t < 0.75; t += 0.1) {
-        const double h = surface.height(moved(summit, away, distance * (1.0 - t) / radius), kSummitLevel);
-        between = std::max(between, h - (ground + 300.0 + t * (top - ground)));
+      double hidden = -1e30;  // steepest line of sight to ground in the way
+      for (double near = 200.0; near < 0.8 * distance; near *= 1.5) {
+        const dvec3 there = moved(summit, away, (distance - near) / radius);
+        hidden = std::max(hidden, (surface.height(there, kEyeLevel) - ground - kEyeHeight) / near);
       }
       geo::Geodetic place = geo::degrees_from_normal(u);
       const geo::LocalFrame here = geo::local_frame(place.lat_deg, place.lon_deg);
@@ -120,7 +122,8 @@ std::pair<double, ScenicView> best_view(const Surface& surface, const dvec3& sum
           std::atan2(glm::dot(summit, here.east), glm::dot(summit, here.north)) * 57.29577951308232;
       const double to_sun = std::cos((heading - sun_heading) * 0.017453292519943295);
       const double light = 1.0 - 0.5 * std::max(0.0, to_sun - 0.1) - 0.15 * std::max(0.0, -to_sun - 0.6);
-      const double score = (top - ground) * light - 0.5 * std::max(0.0, between);
+      const double open = std::clamp((top - ground) / distance - hidden, -0.1, 0.1);
+      const double score = (top - ground) * light * (1.0 + 6.0 * open);
       if (score <= best.first) continue;
       place.h_m = ground;
       best = {score, {place, heading < 0.0 ? heading + 360.0 : heading}};

@@ -15,8 +15,12 @@
 namespace globe::planet {
 namespace {
 
-constexpr double kFinestCarvedWave = 280.0;  ///< metres
-constexpr double kNodesPerWave = 4.0;        ///< carving stops where the finest wave has as many
+constexpr double kFinestValley = 75.0;  ///< metres
+constexpr double kFinestCrater = 20.0;
+
+constexpr double kFullRoughness = 0.035;   ///< slope between data nodes where roughness is 1
+constexpr double kRoomForRelief = 2200.0;  ///< metres above the sea that relief needs to unfold in full
+constexpr double kNodesPerWave = 3.9;      ///< carving stops where the finest wave has as many
 
 /// Uniform in [-1, 1) from the top bits of a hash.
 double signed_unit(std::uint64_t hash) { return static_cast<double>(hash >> 11) * 0x1p-52 - 1.0; }
@@ -42,10 +46,11 @@ bool is_new(const Node& node) { return ((node.i | node.j) & 1) != 0 || node.leve
 
 double Synthesis::edge_m(int level) const { return std::ldexp(root_edge, -level); }
 
+double Synthesis::finest_wave_m() const { return craters ? kFinestCrater : kFinestValley; }
+
 int Synthesis::carved_level() const {
   int level = data_level;
-  if (edge_m(level) < kFinestCarvedWave) return level;
-  while (edge_m(level) * kNodesPerWave > kFinestCarvedWave) ++level;
+  while (edge_m(level) * kNodesPerWave > finest_wave_m()) ++level;
   return level;
 }
 
@@ -53,7 +58,7 @@ namespace {
 
 ReliefScale relief_scale(const Synthesis& s) {
   return {static_cast<std::uint32_t>(vertex_hash(s.seed, {1, 0, 0}) >> 32), s.root_edge / 1.5707963267948966,
-          s.edge_m(s.data_level), kFinestCarvedWave, s.craters};
+          s.edge_m(s.data_level), s.finest_wave_m(), s.craters};
 }
 
 vec3 slope_at(const SurfaceTile& tile, int i, int j) {
@@ -124,9 +129,11 @@ class Measurement {
         sum += std::llround(std::min(rise * rise, 4.0) * 0x1p48);
       }
       const double rms = std::sqrt(static_cast<double>(sum) * 0x1p-48 / static_cast<double>(around.size()));
-      const double x = rms / 0.06;
-      known_[key_of(node)].roughness =
-          x == 0.0 ? 0.0f : static_cast<float>(std::min(1.0, 0.012 + std::sqrt(x * std::sqrt(x))));
+      const double x = rms / kFullRoughness;
+      const double rough = x == 0.0 ? 0.0 : std::min(1.0, 0.012 + std::sqrt(x * std::sqrt(x)));
+      // Water does not cut below its base level: coastal lowlands stay low however uneven.
+      const double room = scale_.craters ? 1.0 : 0.006 + std::abs(h) / kRoomForRelief;
+      known_[key_of(node)].roughness = static_cast<float>(std::min(rough, room));
     }
     return known_[key_of(node)].roughness;
   }

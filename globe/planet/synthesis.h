@@ -24,6 +24,7 @@ struct Synthesis {
   bool craters = false;  ///< carve craters, not valleys
 
   double edge_m(int level) const;
+  double finest_wave_m() const;
   /// Finest level that is carved; the data level when the data are finer than what is carved.
   int carved_level() const;
 };

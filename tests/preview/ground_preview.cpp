@@ -128,7 +128,7 @@ Image perspective_view(Sampler& sampler, double lat, double lon, double above_m,
   };
   const double camera = sampler.at(frame.up, 24).height_m + above_m;
   const vec3 sun = sun_over(frame, 35.0, heading + 65.0);
-  const double horizon = std::sqrt(2.0 * radius * (camera + 100.0)) + std::sqrt(2.0 * radius * 7000.0);
+  const double horizon = std::sqrt(2.0 * radius * (above_m + 100.0)) + std::sqrt(2.0 * radius * 7000.0);
   Image image(kWidth, kHeight);
   for (int x = 0; x < kWidth; ++x) {
     const double yaw = heading + std::atan((x - kWidth / 2 + 0.5) / focal) / kDegree;
