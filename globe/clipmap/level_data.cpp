@@ -1,0 +1,220 @@
+#include "globe/clipmap/level_data.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "globe/clipmap/patch.h"
+#include "globe/clipmap/shading_nodes.h"
+#include "globe/planet/tile_directions.h"
+
+namespace globe::clipmap {
+namespace {
+
+using planet::kDiamonds;
+using planet::kTileCells;
+using planet::Surface;
+using planet::SurfaceTile;
+using planet::TileId;
+
+NodeRect intersect(const NodeRect& a, const NodeRect& b) {
+  return {std::max(a.i0, b.i0), std::min(a.i1, b.i1), std::max(a.j0, b.j0), std::min(a.j1, b.j1)};
+}
+
+std::size_t at(const NodeRect& rect, int i, int j) {
+  return static_cast<std::size_t>(j - rect.j0) * static_cast<std::size_t>(rect.width()) +
+         static_cast<std::size_t>(i - rect.i0);
+}
+
+/// Positions of a rectangle of nodes, ECEF metres from the anchor in double, with the drawn height in w.
+struct PositionGrid {
+  NodeRect rect;
+  std::vector<glm::dvec4> values;
+};
+
+PositionGrid exact_positions(const Surface& surface, int level, int d, const NodeRect& rect,
+                             const dvec3& anchor) {
+  PositionGrid grid{rect, {}};
+  grid.values.resize(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()));
+  const int cells = std::min(kTileCells, planet::nodes_per_side(level));
+  const int last = planet::nodes_per_side(level) / cells - 1;
+  const bool sea = surface.has_sea();
+  for (int tj = std::min(rect.j0 / cells, last); tj <= std::min(rect.j1 / cells, last); ++tj) {
+    for (int ti = std::min(rect.i0 / cells, last); ti <= std::min(rect.i1 / cells, last); ++ti) {
+      const TileId id{d, level, ti, tj};
+      const auto tile = surface.tile(id);
+      const planet::TileDirections directions(id);
+      const NodeRect part =
+          intersect(rect, {id.first_i(), id.first_i() + cells, id.first_j(), id.first_j() + cells});
+      for (int j = part.j0; j <= part.j1; ++j) {
+        for (int i = part.i0; i <= part.i1; ++i) {
+          const double solid = tile->height.at(i, j);
+          const double h = sea ? std::max(solid, 0.0) : solid;
+          const dvec3& u = directions.at(i, j);
+          grid.values[at(rect, i, j)] =
+              glm::dvec4(geo::ecef_from_normal(surface.ellipsoid(), u, h) - anchor, h);
+        }
+      }
+    }
+  }
+  return grid;
+}
+
+/// Grown to even corners on every side, so that both ends of every halved edge are inside.
+NodeRect with_parents(const NodeRect& rect, int n) {
+  const auto down = [](int x) { return x & ~1; };
+  return {std::max(down(rect.i0 - 1), 0), std::min(down(rect.i1 + 2), n), std::max(down(rect.j0 - 1), 0),
+          std::min(down(rect.j1 + 2), n)};
+}
+
+VertexBlock make_vertex_block(const Surface& surface, int level, int d, const NodeRect& rect,
+                              const dvec3& anchor) {
+  const int n = planet::nodes_per_side(level);
+  const PositionGrid grid = exact_positions(surface, level, d, with_parents(rect, n), anchor);
+  VertexBlock block{d, rect, {}, {}};
+  const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
+  block.position.reserve(count);
+  block.coarse.reserve(count);
+  for (int j = rect.j0; j <= rect.j1; ++j) {
+    for (int i = rect.i0; i <= rect.i1; ++i) {
+      const glm::dvec4& own = grid.values[at(grid.rect, i, j)];
+      block.position.emplace_back(own);
+      if (((i | j) & 1) == 0) {
+        block.coarse.emplace_back(own);
+        continue;
+      }
+      const auto ends = planet::halved_edge(i, j);
+      const glm::dvec4& a = grid.values[at(grid.rect, ends[0].x, ends[0].y)];
+      const glm::dvec4& b = grid.values[at(grid.rect, ends[1].x, ends[1].y)];
+      block.coarse.emplace_back((a + b) * 0.5);
+    }
+  }
+  return block;
+}
+
+PatchBounds bound_patch(const Settings& settings, const LevelData& data, const Patch& patch) {
+  const auto d = static_cast<std::size_t>(patch.trixel.d);
+  glm::vec3 low(std::numeric_limits<float>::max());
+  glm::vec3 high(std::numeric_limits<float>::lowest());
+  const auto position = [&](int a, int b) {
+    const ivec2 node = patch_node(patch.trixel, settings.m, a, b);
+    return glm::vec3(data.positions[d][at(data.vertices[d], node.x, node.y)]);
+  };
+  for (int b = 0; b <= settings.m; ++b) {
+    for (int a = 0; a + b <= settings.m; ++a) {
+      low = glm::min(low, position(a, b));
+      high = glm::max(high, position(a, b));
+    }
+  }
+  PatchBounds bounds{(low + high) * 0.5f, 0.0f};
+  for (int b = 0; b <= settings.m; ++b) {
+    for (int a = 0; a + b <= settings.m; ++a) {
+      bounds.radius = std::max(bounds.radius, glm::distance(bounds.centre, position(a, b)));
+    }
+  }
+  return bounds;  // morphed vertices lie between these positions, hence inside
+}
+
+}  // namespace
+
+std::size_t LevelUpdate::upload_bytes() const {
+  std::size_t bytes = 0;
+  for (const VertexBlock& block : vertex_blocks)
+    bytes += (block.position.size() + block.coarse.size()) * sizeof(glm::vec4);
+  for (const ShadingBlock& block : shading_blocks) {
+    bytes += block.albedo.size() * sizeof(glm::u8vec4) + block.normal.size() * sizeof(glm::u16vec2);
+  }
+  return bytes;
+}
+
+dvec3 level_anchor(const Settings& settings, const Surface& surface, const Region& region) {
+  Node node{0, region.level, 0, 0};
+  if (region.level > settings.base_level) {
+    const int step = std::min(static_cast<int>(std::bit_floor(static_cast<unsigned>(2 * settings.s))),
+                              planet::nodes_per_side(region.level));
+    node = nearest_lattice_node(grid_point(region.centre), step);
+  } else {
+    return dvec3(0.0);  // the whole sphere: its centre
+  }
+  return geo::ecef_from_normal(surface.ellipsoid(), planet::node_direction(node), surface.height(node));
+}
+
+dvec3 shading_axis(int d) {
+  constexpr double kHalf = 0.70710678118654752440;
+  constexpr std::array<std::array<double, 2>, 4> kAxes{
+      {{-kHalf, kHalf}, {-kHalf, -kHalf}, {kHalf, -kHalf}, {kHalf, kHalf}}};
+  const auto& axis = kAxes[static_cast<std::size_t>(d)];
+  return {axis[0], axis[1], 0.0};
+}
+
+std::vector<NodeRect> difference(const NodeRect& wanted, const NodeRect& held) {
+  if (wanted.empty()) return {};
+  const NodeRect common = held.empty() ? NodeRect{} : intersect(wanted, held);
+  if (common.empty()) return {wanted};
+  std::vector<NodeRect> parts;
+  const auto add = [&](const NodeRect& part) {
+    if (!part.empty()) parts.push_back(part);
+  };
+  add({wanted.i0, wanted.i1, wanted.j0, common.j0 - 1});
+  add({wanted.i0, wanted.i1, common.j1 + 1, wanted.j1});
+  add({wanted.i0, common.i0 - 1, common.j0, common.j1});
+  add({common.i1 + 1, wanted.i1, common.j0, common.j1});
+  return parts;
+}
+
+LevelUpdate update_level(const Settings& settings, const Surface& surface, Region region,
+                         const LevelData* before) {
+  auto data = std::make_shared<LevelData>();
+  LevelUpdate update;
+  const int level = region.level;
+  const int shading_level = level + settings.shading_levels;
+  const int up = 1 << settings.shading_levels;
+  const int shading_n = planet::nodes_per_side(shading_level);
+  data->anchor = level_anchor(settings, surface, region);
+  const bool same_anchor = before != nullptr && before->anchor == data->anchor;
+  data->vertices = region.nodes;
+  for (int d = 0; d < kDiamonds; ++d) {
+    const auto k = static_cast<std::size_t>(d);
+    const NodeRect& rect = data->vertices[k];
+    if (rect.empty()) continue;
+    data->positions[k].resize(static_cast<std::size_t>(rect.width()) *
+                              static_cast<std::size_t>(rect.height()));
+    const NodeRect held = same_anchor ? before->vertices[k] : NodeRect{};
+    if (!held.empty()) {
+      const NodeRect common = intersect(rect, held);
+      for (int j = common.j0; j <= common.j1; ++j) {
+        for (int i = common.i0; i <= common.i1; ++i) {
+          data->positions[k][at(rect, i, j)] = before->positions[k][at(held, i, j)];
+        }
+      }
+    }
+    for (const NodeRect& part : difference(rect, held)) {
+      VertexBlock block = make_vertex_block(surface, level, d, part, data->anchor);
+      for (int j = part.j0; j <= part.j1; ++j) {
+        for (int i = part.i0; i <= part.i1; ++i) {
+          data->positions[k][at(rect, i, j)] = block.position[at(part, i, j)];
+        }
+      }
+      update.vertex_blocks.push_back(std::move(block));
+    }
+    // One guard node all round: bilinear look-ups at the border of the region read it, with weight zero.
+    data->shading[k] = {std::max(rect.i0 * up - 1, 0), std::min(rect.i1 * up + 1, shading_n),
+                        std::max(rect.j0 * up - 1, 0), std::min(rect.j1 * up + 1, shading_n)};
+    for (const NodeRect& part :
+         difference(data->shading[k], before != nullptr ? before->shading[k] : NodeRect{})) {
+      update.shading_blocks.push_back(make_shading_block(surface, shading_level, d, part));
+    }
+  }
+  data->region = std::move(region);
+  data->patches = make_ring(settings, data->region, nullptr);
+  std::sort(data->patches.begin(), data->patches.end(),
+            [](const Patch& a, const Patch& b) { return a.trixel < b.trixel; });
+  data->bounds.reserve(data->patches.size());
+  for (const Patch& patch : data->patches) data->bounds.push_back(bound_patch(settings, *data, patch));
+  update.data = std::move(data);
+  return update;
+}
+
+}  // namespace globe::clipmap

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <vector>
+
+#include "globe/clipmap/region.h"
+#include "globe/planet/surface.h"
+
+namespace globe::clipmap {
+
+/// A rectangle of one layer's vertices to upload: position (metres from the level's anchor, fp32) and, in w,
+/// height.
+struct VertexBlock {
+  int d = 0;
+  NodeRect nodes;                   ///< nodes of the level
+  std::vector<glm::vec4> position;  ///< row by row, i fastest
+  std::vector<glm::vec4>
+      coarse;  ///< where the vertex goes at α = 1: halfway between the coarser level's two vertices
+};
+
+/// The same for shading, at the level's shading level.
+struct ShadingBlock {
+  int d = 0;
+  NodeRect nodes;                    ///< nodes of level + shading_levels
+  std::vector<glm::u8vec4> albedo;   ///< square root of linear light; alpha: 255 where there is water
+  std::vector<glm::u16vec2> normal;  ///< normal's components along the shading frame, [-1, 1] as unorm16
+};
+
+/// Sphere around everything a patch can be drawn as, metres from the level's anchor.
+struct PatchBounds {
+  glm::vec3 centre{0.0f};
+  float radius = 0;
+};
+
+/// What is resident of one level: CPU side of its windows. Immutable once made; the next one is made from it.
+struct LevelData {
+  Region region;
+  dvec3 anchor{0.0};                                 ///< ECEF metres, a pure function of the region's centre
+  std::array<NodeRect, planet::kDiamonds> vertices;  ///< resident nodes of each diamond
+  std::array<NodeRect, planet::kDiamonds> shading;   ///< resident nodes of each diamond at the shading level
+  std::array<std::vector<glm::vec4>, planet::kDiamonds> positions;  ///< of `vertices`, as uploaded
+  std::vector<Patch> patches;       ///< every patch of the region, sorted by trixel, rim marked
+  std::vector<PatchBounds> bounds;  ///< of `patches`
+};
+
+/// A new state of a level and what has to be uploaded to get there from the one before.
+struct LevelUpdate {
+  std::shared_ptr<const LevelData> data;
+  std::vector<VertexBlock> vertex_blocks;
+  std::vector<ShadingBlock> shading_blocks;
+
+  std::size_t upload_bytes() const;
+};
+
+/// Shared origin of a level's offsets: the ground at the node nearest to the region's centre on the lattice
+/// of the largest power of two up to 2s cells.
+dvec3 level_anchor(const Settings& settings, const planet::Surface& surface, const Region& region);
+
+/// Computes what a level needs for `region`: only nodes that `before` (null: nothing) does not hold, unless
+/// the anchor changed. Positions in double, rounded once. Safe to call from any thread.
+LevelUpdate update_level(const Settings& settings, const planet::Surface& surface, Region region,
+                         const LevelData* before);
+
+/// Axis from which the shading frame of a diamond is made: t1 is its part perpendicular to the normal u, t2 =
+/// u x t1. East on the diamond's central meridian; nowhere in the diamond along u, the poles included.
+dvec3 shading_axis(int d);
+
+/// Parts of `wanted` outside `held`: at most four rectangles without overlap.
+std::vector<NodeRect> difference(const NodeRect& wanted, const NodeRect& held);
+
+}  // namespace globe::clipmap

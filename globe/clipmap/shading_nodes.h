@@ -1,0 +1,15 @@
+#pragma once
+
+#include "globe/clipmap/level_data.h"
+
+namespace globe::clipmap {
+
+/// Normals and albedo of a rectangle of nodes of one diamond, for per-pixel shading.
+///
+/// The normal is that of the drawn ground by central differences over the six lattice neighbours, in the
+/// diamond's shading frame (shading_axis). The lattice's metric is taken from node directions every 16 cells
+/// and interpolated between: an error in the slope's direction below 1 % from level 8 on. Under water the
+/// relief fades with depth as the light does.
+ShadingBlock make_shading_block(const planet::Surface& surface, int level, int d, const NodeRect& nodes);
+
+}  // namespace globe::clipmap

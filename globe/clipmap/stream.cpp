@@ -1,0 +1,106 @@
+#include "globe/clipmap/stream.h"
+
+#include <tbb/parallel_for.h>
+
+#include <utility>
+
+namespace globe::clipmap {
+
+std::size_t StateUpdate::upload_bytes() const {
+  std::size_t bytes = 0;
+  for (const LevelUpdate& level : levels) bytes += level.upload_bytes();
+  return bytes;
+}
+
+bool still_holds(const Settings& settings, const ClipmapState& state, const Target& target) {
+  if (state.finest_level() < target.finest) return false;
+  for (int level = settings.base_level + 1; level <= target.finest; ++level) {
+    const auto& data = state.levels[static_cast<std::size_t>(level - settings.base_level)];
+    if (!(nearest_lattice_node(nadir(target.u, level), settings.unit()) == data->region.centre)) return false;
+  }
+  return true;
+}
+
+StateUpdate advance(const Settings& settings, const planet::Surface& surface, const Target& target,
+                    const ClipmapState* before) {
+  auto state = std::make_shared<ClipmapState>();
+  state->target = target;
+  const int count = target.finest - settings.base_level + 1;
+  state->levels.resize(static_cast<std::size_t>(count));
+  std::vector<LevelUpdate> updates(static_cast<std::size_t>(count));
+  tbb::parallel_for(0, count, [&](int k) {
+    const auto index = static_cast<std::size_t>(k);
+    const int level = settings.base_level + k;
+    const LevelData* held =
+        before != nullptr && index < before->levels.size() ? before->levels[index].get() : nullptr;
+    const GridPoint point = nadir(target.u, level);
+    if (held != nullptr && (k == 0 || nearest_lattice_node(point, settings.unit()) == held->region.centre)) {
+      state->levels[index] = before->levels[index];
+      return;
+    }
+    updates[index] = update_level(settings, surface, make_region(settings, point), held);
+    state->levels[index] = updates[index].data;
+  });
+  StateUpdate update{std::move(state), {}};
+  for (LevelUpdate& level : updates) {
+    if (level.data) update.levels.push_back(std::move(level));
+  }
+  return update;
+}
+
+Stream::Stream(Settings settings, std::shared_ptr<const planet::Surface> surface)
+    : settings_(settings),
+      surface_(std::move(surface)),
+      thread_([this](const std::stop_token& stop) { work(stop); }) {}
+
+Stream::~Stream() {
+  thread_.request_stop();
+  wake_.notify_all();
+}
+
+void Stream::request(const Target& target, std::shared_ptr<const ClipmapState> before) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (busy_ || result_) return;
+    job_ = Job{target, std::move(before)};
+  }
+  wake_.notify_one();
+}
+
+std::optional<StateUpdate> Stream::take() {
+  const std::lock_guard lock(mutex_);
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  return std::exchange(result_, std::nullopt);
+}
+
+int Stream::pending() const {
+  const std::lock_guard lock(mutex_);
+  if (!job_) return 0;
+  return job_->target.finest - settings_.base_level + 1;
+}
+
+void Stream::work(const std::stop_token& stop) {
+  for (;;) {
+    Job job;
+    {
+      std::unique_lock lock(mutex_);
+      if (!wake_.wait(lock, stop, [this] { return job_.has_value() && !busy_ && !result_; })) return;
+      job = *job_;
+      busy_ = true;
+    }
+    std::optional<StateUpdate> result;
+    std::exception_ptr failure;
+    try {
+      result = advance(settings_, *surface_, job.target, job.before.get());
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    busy_ = false;
+    job_.reset();
+    result_ = std::move(result);
+    failure_ = failure;
+  }
+}
+
+}  // namespace globe::clipmap

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "globe/clipmap/level_data.h"
+#include "globe/clipmap/settings.h"
+
+namespace globe::clipmap {
+
+/// Where the clipmap is wanted: under which normal, and down to which level.
+struct Target {
+  dvec3 u{0.0, 0.0, 1.0};
+  int finest = 0;
+};
+
+/// A whole clipmap, base level first. All levels belong to one nadir, so the mesh they make is closed.
+struct ClipmapState {
+  Target target;
+  std::vector<std::shared_ptr<const LevelData>> levels;
+
+  int base_level() const { return levels.front()->region.level; }
+  int finest_level() const { return levels.back()->region.level; }
+};
+
+/// A new state and the uploads that lead to it from the state before, level by level.
+struct StateUpdate {
+  std::shared_ptr<const ClipmapState> state;
+  std::vector<LevelUpdate> levels;
+
+  std::size_t upload_bytes() const;
+};
+
+/// Computes the state for a target from the state before (null: nothing). Levels whose region stays are kept
+/// as they are. Levels are independent of each other and computed on all cores.
+StateUpdate advance(const Settings& settings, const planet::Surface& surface, const Target& target,
+                    const ClipmapState* before);
+
+/// Regions move only when the nadir comes closer to another node of their lattice: true when every level of
+/// `state` is still the right one for `u` and it reaches `finest`.
+bool still_holds(const Settings& settings, const ClipmapState& state, const Target& target);
+
+/// Computes states on a thread of its own, so that the thread that draws never waits.
+///
+/// The drawing thread asks for the newest target every frame and takes what is finished; until then it goes
+/// on with the state it has, whose mesh is closed wherever the camera is.
+class Stream {
+ public:
+  Stream(Settings settings, std::shared_ptr<const planet::Surface> surface);
+  ~Stream();
+  Stream(const Stream&) = delete;
+  Stream& operator=(const Stream&) = delete;
+
+  /// Asks for a target; an older one that was not begun is forgotten. `before` is the state the result will
+  /// be applied to; nothing happens while a result waits to be taken or is being computed.
+  void request(const Target& target, std::shared_ptr<const ClipmapState> before);
+
+  /// The finished update, once.
+  std::optional<StateUpdate> take();
+
+  /// Levels asked for and not finished.
+  int pending() const;
+
+ private:
+  void work(const std::stop_token& stop);
+
+  struct Job {
+    Target target;
+    std::shared_ptr<const ClipmapState> before;
+  };
+
+  Settings settings_;
+  std::shared_ptr<const planet::Surface> surface_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::optional<Job> job_;
+  bool busy_ = false;
+  std::optional<StateUpdate> result_;
+  std::exception_ptr failure_;
+  std::jthread thread_;  ///< last: stops before what it uses is gone
+};
+
+}  // namespace globe::clipmap

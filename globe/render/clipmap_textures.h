@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "globe/clipmap/stream.h"
+#include "globe/gl/texture.h"
+
+namespace globe::render {
+
+/// The GPU side of the windows: four array textures of one toroidal layer for each (level, diamond) in use.
+///
+/// Bytes of a layer: 2 · 16 w² + 8 (w·2^k)², w the side of the vertex window and k the shading levels; layers
+/// come from a pool that doubles when it is full.
+class ClipmapTextures {
+ public:
+  explicit ClipmapTextures(const clipmap::Settings& settings);
+
+  /// Uploads what an update brings and gives free what its state no longer needs. Returns the bytes uploaded.
+  std::size_t apply(const clipmap::StateUpdate& update);
+
+  /// Layer of a level's share of a diamond; -1 when nothing of it is resident.
+  int layer(int level, int d) const;
+
+  /// Binds positions, coarse positions, albedo and normals to units 0 to 3.
+  void bind() const;
+
+  std::size_t bytes() const;
+  std::size_t layer_bytes() const;
+  int layers() const { return positions_.layers(); }
+
+ private:
+  int acquire(int level, int d);
+  void grow();
+
+  clipmap::Settings settings_;
+  gl::Texture positions_, coarse_, albedo_, normals_;
+  std::map<std::pair<int, int>, int> used_;  ///< (level, diamond) -> layer
+  std::vector<int> free_;
+};
+
+}  // namespace globe::render

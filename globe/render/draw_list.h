@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "globe/clipmap/culling.h"
+#include "globe/clipmap/stream.h"
+#include "globe/render/camera.h"
+#include "globe/render/clipmap_textures.h"
+
+namespace globe::render {
+
+/// Mirrors `Slot` in shaders/clipmap.vert (std140).
+struct SlotBlock {
+  glm::vec4 offset{0.0f};
+  glm::ivec4 torus{0};
+  glm::ivec4 images_a{0};
+  glm::ivec4 images_b{0};
+  glm::ivec4 coarse{0};
+  glm::vec4 shading{0.0f};
+  glm::vec4 axis{0.0f};
+};
+inline constexpr int kMaxSlots = 128;
+
+/// How a patch is drawn: without morphing, with it, or at a rim beside the coarser level.
+enum class Kind { kPlain, kMorphing, kRim };
+
+/// Patches of one kind and rim variant: one instanced draw.
+struct Batch {
+  Kind kind = Kind::kPlain;
+  int rim = 0;
+  std::vector<glm::ivec4> instances;  ///< corner 0 from the window's first node (i, j), ±1 for the half, slot
+};
+
+/// Everything to draw of the ground this frame.
+struct DrawList {
+  std::vector<SlotBlock> slots;
+  std::vector<Batch> batches;
+  std::size_t patches = 0;
+};
+
+/// Chooses the patches in view, finest level first.
+///
+/// @param finest  levels of the state above it are left out
+/// @param fade    morph factor the finest level has at least
+/// @param cull    false: every patch of the mesh, for tests
+DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::ClipmapState& state,
+                        const ClipmapTextures& textures, const geo::Ellipsoid& ellipsoid, double lowest_m,
+                        const Camera& camera, int finest, float fade, bool cull);
+
+}  // namespace globe::render

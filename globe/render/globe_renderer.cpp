@@ -1,0 +1,259 @@
+#include "globe/render/globe_renderer.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <string>
+#include <utility>
+
+#include "globe/clipmap/morph.h"
+
+namespace globe::render {
+namespace {
+
+/// Mirrors `View` in shaders/lib/view.glsl (std140).
+struct ViewBlock {
+  glm::mat4 clip_from_relative;
+  glm::vec4 eye_km;
+  glm::vec4 sun;
+  glm::vec4 axes_km;
+  glm::vec4 right;
+  glm::vec4 up;
+  glm::vec4 forward;
+};
+
+constexpr float kSunlight = 10.0f;  ///< sunlight above the air, in units of the tone curve's white
+constexpr float kExposure = 1.0f;
+constexpr std::size_t kMaxInstances = 32768;
+constexpr float kLateFade = 0.1f;  ///< a level that arrives late morphs in by this much a frame
+/// Nothing drawn lies lower: the deepest ground of the bodies known, and the sag of base-level triangles.
+constexpr double kLowestGround = -32000.0;
+
+bool has_air(const planet::PlanetInfo& info) {
+  return info.body == "earth" || info.name.rfind("procedural", 0) == 0;
+}
+
+gl::Program ground_program(Kind kind, const RenderSettings& settings) {
+  gl::ProgramSources sources;
+  sources.files = {"clipmap.vert", "clipmap.frag"};
+  sources.defines = {"MAX_SLOTS " + std::to_string(kMaxSlots), "HAZE_STEPS 4"};
+  if (kind != Kind::kPlain) sources.defines.push_back("MORPH");
+  if (kind == Kind::kRim) sources.defines.push_back("RIM");
+  if (settings.show != Show::kGround || settings.wireframe) sources.defines.push_back("SHOW");
+  return gl::Program(sources);
+}
+
+ViewBlock view_block(const Camera& camera, const planet::Surface& surface, const glm::dvec3& sun,
+                     double near_m) {
+  const geo::Ellipsoid& ellipsoid = surface.ellipsoid();
+  const double a = ellipsoid.a * 1e-3;
+  const double b = ellipsoid.b() * 1e-3;
+  // The air follows the ellipsoid; the sphere of the camera's own radius stands for it.
+  const double ground =
+      glm::length(geo::surface_point(
+          ellipsoid,
+          glm::normalize(camera.position * glm::dvec3(1.0 / (a * a), 1.0 / (a * a), 1.0 / (b * b))))) *
+      1e-3;
+  ViewBlock block{};
+  block.clip_from_relative = glm::mat4(clip_from_relative(camera, near_m));
+  block.eye_km = glm::vec4(glm::vec3(camera.position * 1e-3), static_cast<float>(ground));
+  block.sun = glm::vec4(glm::vec3(sun), kSunlight);
+  block.axes_km = {static_cast<float>(1.0 / (a * a)), static_cast<float>(1.0 / (b * b)),
+                   has_air(surface.info()) ? 1.0f : 0.0f, kExposure};
+  block.right = glm::vec4(glm::vec3(camera.right * camera.tan_x()), 0.0f);
+  block.up = glm::vec4(glm::vec3(camera.up * camera.tan_y()), 0.0f);
+  block.forward = glm::vec4(glm::vec3(camera.forward), 0.0f);
+  return block;
+}
+
+}  // namespace
+
+GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, const RenderSettings& settings)
+    : surface_(std::move(surface)),
+      settings_(settings),
+      mesh_(clipmap::make_patch_mesh(settings.clipmap.m)),
+      vertices_(gl::Buffer::of(mesh_.vertices)),
+      instances_(kMaxInstances * sizeof(glm::ivec4)),
+      view_(sizeof(ViewBlock)),
+      slots_(kMaxSlots * sizeof(SlotBlock)),
+      ground_array_(gl::VertexArray::create()),
+      sky_array_(gl::VertexArray::create()),
+      textures_(settings.clipmap) {
+  std::vector<std::uint16_t> indices;
+  for (std::size_t rim = 0; rim < 8; ++rim) {
+    index_offset_[rim] = indices.size() * sizeof(std::uint16_t);
+    indices.insert(indices.end(), mesh_.indices[rim].begin(), mesh_.indices[rim].end());
+  }
+  indices_ = gl::Buffer::of(indices);
+  ground_array_.set_vertices(0, vertices_, 0, 2);
+  ground_array_.set_attribute(0, {0, 2, GL_UNSIGNED_BYTE, 0, gl::Attribute::Kind::kInteger});
+  ground_array_.set_vertices(1, instances_, 0, sizeof(glm::ivec4), 1);
+  ground_array_.set_attribute(1, {1, 4, GL_INT, 0, gl::Attribute::Kind::kInteger});
+  ground_array_.set_indices(indices_);
+  for (const Kind kind : {Kind::kPlain, Kind::kMorphing, Kind::kRim}) {
+    ground_[static_cast<std::size_t>(kind)] = ground_program(kind, settings_);
+  }
+  if (!settings_.background) {
+    gl::ProgramSources sources;
+    sources.files = {"sky.vert", "sky.frag"};
+    sources.defines = {"SKY_STEPS 8"};
+    sky_ = gl::Program(sources);
+  }
+}
+
+double GlobeRenderer::height_above_ground(const glm::dvec3& position) const {
+  const geo::Geodetic place = geo::geodetic_from_ecef(surface_->ellipsoid(), position);
+  const glm::dvec3 u = geo::normal_from_degrees(place.lat_deg, place.lon_deg);
+  const auto drawn = [&](int level) {
+    const double h = surface_->height(u, level);
+    return place.h_m - (surface_->has_sea() ? std::max(h, 0.0) : h);
+  };
+  double above = drawn(settings_.clipmap.base_level);
+  for (int k = 0; k < 3; ++k) {
+    const auto finest = clipmap::finest_level(settings_.clipmap, surface_->root_edge(), std::max(above, 0.5),
+                                              settings_.max_level);
+    above = drawn(finest.level);
+  }
+  return above;
+}
+
+std::size_t GlobeRenderer::load(const clipmap::Target& target, bool wait) {
+  const auto take = [&](const clipmap::StateUpdate& update) {
+    const std::size_t bytes = textures_.apply(update);
+    state_ = update.state;
+    return bytes;
+  };
+  if (wait || !state_) {
+    if (stream_) stream_.reset();
+    if (state_ && clipmap::still_holds(settings_.clipmap, *state_, target)) {
+      auto moved = std::make_shared<clipmap::ClipmapState>(*state_);
+      moved->target = target;
+      state_ = std::move(moved);
+      return 0;
+    }
+    return take(clipmap::advance(settings_.clipmap, *surface_, target, state_.get()));
+  }
+  if (!stream_) stream_ = std::make_unique<clipmap::Stream>(settings_.clipmap, surface_);
+  std::size_t bytes = 0;
+  if (const auto update = stream_->take()) bytes = take(*update);
+  if (clipmap::still_holds(settings_.clipmap, *state_, target)) {
+    auto moved = std::make_shared<clipmap::ClipmapState>(*state_);
+    moved->target = {target.u, state_->finest_level()};
+    state_ = std::move(moved);
+  } else {
+    stream_->request(target, state_);
+  }
+  return bytes;
+}
+
+FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool wait,
+                               const gl::Framebuffer& target) {
+  FrameStats stats;
+  const double above = std::max(height_above_ground(camera.position), 0.1);
+  const auto finest =
+      clipmap::finest_level(settings_.clipmap, surface_->root_edge(), above, settings_.max_level);
+  const geo::Geodetic place = geo::geodetic_from_ecef(surface_->ellipsoid(), camera.position);
+  const clipmap::Target wanted{geo::normal_from_degrees(place.lat_deg, place.lon_deg), finest.level};
+  stats.upload_bytes = load(wanted, wait);
+  stats.complete = state_->finest_level() >= finest.level && state_->target.u == wanted.u;
+  stats.queued_jobs = stream_ ? stream_->pending() : 0;
+  stats.finest_level = std::min(finest.level, state_->finest_level());
+
+  float fade = stats.finest_level == finest.level ? finest.fade : 0.0f;
+  if (!wait && stats.finest_level > shown_finest_) fade = std::max(fade, 1.0f - kLateFade);
+  if (!wait && stats.finest_level == shown_finest_) fade = std::max(fade, shown_fade_ - kLateFade);
+  shown_fade_ = fade;
+  shown_finest_ = stats.finest_level;
+
+  target.bind();
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_GREATER);
+  if (settings_.cull_faces) {
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    glFrontFace(GL_CCW);
+  } else {
+    glDisable(GL_CULL_FACE);
+  }
+  const glm::vec3 background = settings_.background.value_or(glm::vec3(0.0f));
+  target.clear_color(background.r, background.g, background.b, 1.0f);
+  target.clear_depth(0.0f);
+
+  const ViewBlock view = view_block(camera, *surface_, sun, near_distance(surface_->ellipsoid(), above));
+  view_.upload(0, &view, sizeof(view));
+  view_.bind_base(GL_UNIFORM_BUFFER, 0);
+  const DrawList list =
+      make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), kLowestGround, camera,
+                     stats.finest_level, fade, settings_.cull_patches);
+  stats.patches = list.patches;
+  draw_ground(list, stats);
+  if (sky_) {
+    glDepthFunc(GL_GEQUAL);
+    glDepthMask(GL_FALSE);
+    sky_array_.bind();
+    sky_->use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthMask(GL_TRUE);
+  }
+  return stats;
+}
+
+void GlobeRenderer::draw_ground(const DrawList& list, FrameStats& stats) {
+  slots_.upload(0, list.slots.data(), list.slots.size() * sizeof(SlotBlock));
+  slots_.bind_base(GL_UNIFORM_BUFFER, 1);
+  std::size_t first = 0;
+  for (const Batch& batch : list.batches) {
+    instances_.upload(first * sizeof(glm::ivec4), batch.instances.data(),
+                      batch.instances.size() * sizeof(glm::ivec4));
+    first += batch.instances.size();
+    stats.triangles += batch.instances.size() * mesh_.indices[static_cast<std::size_t>(batch.rim)].size() / 3;
+  }
+  textures_.bind();
+  ground_array_.bind();
+  if (settings_.wireframe) {
+    draw_batches(list, glm::vec4(0.0f, 0.0f, 0.0f, 0.35f));
+    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    glEnable(GL_POLYGON_OFFSET_LINE);
+    glPolygonOffset(1.0f, 1.0f);
+    draw_batches(list, glm::vec4(1.0f, 1.0f, 1.0f, 0.75f));
+    glDisable(GL_POLYGON_OFFSET_LINE);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  } else {
+    draw_batches(list, glm::vec4(0.0f));
+  }
+}
+
+void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay) {
+  const clipmap::Settings& c = settings_.clipmap;
+  const clipmap::MorphBand band = clipmap::morph_band(c);
+  const float scale = static_cast<float>(1 << c.shading_levels) / static_cast<float>(c.shading_window());
+  std::size_t first = 0;
+  const gl::Program* bound = nullptr;
+  for (const Batch& batch : list.batches) {
+    const gl::Program& program = ground_[static_cast<std::size_t>(batch.kind)];
+    if (bound != &program) {
+      program.use();
+      program.set(0, glm::ivec4(c.window(), band.begin, band.end, c.m));
+      program.set(1, glm::vec2(scale));
+      if (settings_.show != Show::kGround || settings_.wireframe) {
+        program.set(3, overlay);
+        program.set(4, static_cast<int>(settings_.show));
+      }
+      bound = &program;
+    }
+    if (batch.kind == Kind::kRim) program.set(2, batch.rim);
+    const auto rim = static_cast<std::size_t>(batch.rim);
+    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(mesh_.indices[rim].size()),
+                                        GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(index_offset_[rim]),
+                                        static_cast<GLsizei>(batch.instances.size()),
+                                        static_cast<GLuint>(first));
+    first += batch.instances.size();
+  }
+}
+
+}  // namespace globe::render

@@ -1,0 +1,124 @@
+#define OUT(type) out type
+#include "lib/clipmap.glsl"
+#include "lib/atmosphere.glsl"
+#include "lib/view.glsl"
+
+// One layer of the windows: a level's share of one diamond. Mirrored by render::SlotBlock.
+struct Slot {
+  vec4 offset;     // anchor - camera, metres; w: fade of the level
+  ivec4 torus;     // texel of the first node (i, j), layer, slot of the coarser level in this diamond
+  ivec4 images_a;  // nearest images of the nadir from the first node, 1/1024 cells
+  ivec4 images_b;
+  ivec4 coarse;    // first node - 2 * coarser slot's first node (i, j), level
+  vec4 shading;    // texture coordinate of the first node
+  vec4 axis;       // shading axis of the diamond
+};
+layout(std140, binding = 1) uniform Slots { Slot slots[MAX_SLOTS]; };
+
+layout(binding = 0) uniform sampler2DArray positions;
+layout(binding = 1) uniform sampler2DArray coarse_positions;
+
+layout(location = 0) in uvec2 local;     // cells from corner 0 of the patch
+layout(location = 1) in ivec4 instance;  // corner 0 from the window's first node (i, j), ±1 for the half, slot
+
+layout(location = 0) uniform ivec4 window;       // texels of the torus, morph begin, morph end, m
+layout(location = 1) uniform vec2 shading_scale; // texture coordinate a cell
+layout(location = 2) uniform int rim;            // edges whose vertices are the coarser level's
+
+out Shading {
+  vec3 lit;         // sun along the normal, t1, t2
+  vec3 sunlight;    // at the ground, what is left of it at the eye
+  vec3 skylight;
+  vec3 haze;
+  vec2 texel;
+#ifdef MORPH
+  vec2 coarse_texel;
+  float alpha;
+#endif
+  float glint;
+} shading;
+flat out ivec3 layers;  // fine, coarse, level
+
+invariant gl_Position;
+
+#ifdef RIM
+bool on_rim(ivec2 ab) {
+  return ((rim & 1) != 0 && ab.x + ab.y == window.w) || ((rim & 2) != 0 && ab.x == 0) || ((rim & 4) != 0 && ab.y == 0);
+}
+#endif
+
+void main() {
+  int slot_index = instance.w;
+  Slot slot = slots[slot_index];
+  ivec2 ab = ivec2(local);
+  ivec2 node = instance.xy + instance.z * ab;
+  ivec3 texel = ivec3(torus_texel(node, slot.torus.xy, window.x), slot.torus.z);
+  vec4 fine = texelFetch(positions, texel, 0);
+  precise vec3 position = fine.xyz;
+  float height = fine.w;
+
+#ifdef MORPH
+  ivec2 p = node * 1024;
+  int distance = min(min(hex_length(p - slot.images_a.xy), hex_length(p - slot.images_a.zw)),
+                     min(hex_length(p - slot.images_b.xy), hex_length(p - slot.images_b.zw)));
+  float alpha = max(morph_factor(distance, window.y, window.z), slot.offset.w);
+  vec4 target = texelFetch(coarse_positions, texel, 0);
+  position = vec3(exact_mix(position.x, target.x, alpha), exact_mix(position.y, target.y, alpha),
+                  exact_mix(position.z, target.z, alpha));
+  height = mix(height, target.w, alpha);
+  Slot coarse = slots[slot.torus.w];
+  shading.alpha = alpha;
+  shading.coarse_texel = vec2(node + slot.coarse.xy) * (0.5 * shading_scale) + coarse.shading.xy;
+#endif
+  position += slot.offset.xyz;
+
+#ifdef RIM
+  if (on_rim(ab)) {
+    ivec3 rim_texel = ivec3(torus_texel((node + slot.coarse.xy) / 2, coarse.torus.xy, window.x), coarse.torus.z);
+    vec4 rim_vertex = texelFetch(positions, rim_texel, 0);
+    position = rim_vertex.xyz + coarse.offset.xyz;
+    height = rim_vertex.w;
+  }
+#endif
+  precise vec4 clip = view.clip_from_relative * vec4(position, 1.0);
+  gl_Position = clip;
+
+  shading.texel = vec2(node) * shading_scale + slot.shading.xy;
+#ifdef MORPH
+  layers = ivec3(slot.torus.z, coarse.torus.z, slot.coarse.z);
+#else
+  layers = ivec3(slot.torus.z, slot.torus.z, slot.coarse.z);
+#endif
+
+  vec3 relative_km = position * 1e-3;
+  vec3 from_centre = view.eye_km.xyz + relative_km;
+  vec3 normal = normalize(from_centre * view.axes_km.xxy);
+  vec3 t1 = normalize(slot.axis.xyz - normal * dot(slot.axis.xyz, normal));
+  vec3 t2 = cross(normal, t1);
+  vec3 sun = view.sun.xyz;
+  shading.lit = vec3(dot(sun, normal), dot(sun, t1), dot(sun, t2));
+
+  float away = length(relative_km);
+  vec3 direction = relative_km / max(away, 1e-9);
+  vec3 half_way = normalize(sun - direction);
+  float facing = max(dot(normal, half_way), 0.0);
+  shading.glint = 1.2 * pow(facing, 180.0) * step(0.0, shading.lit.x);
+
+  float height_km = height * 1e-3;
+  if (view.axes_km.z > 0.0) {
+    float ground = view.eye_km.w;
+    vec3 left;
+    // The stretch of the ray inside the air.
+    float radius = length(view.eye_km.xyz);
+    float along = dot(view.eye_km.xyz, direction);
+    float top = ground + kAirTop;
+    float entry = radius > top ? max(-along - sqrt(max(along * along - radius * radius + top * top, 0.0)), 0.0) : 0.0;
+    shading.haze = inscattered(view.eye_km.xyz, direction, min(entry, away), away, sun, ground, HAZE_STEPS, left) * view.sun.w;
+    shading.sunlight = view.sun.w * left * sun_transmittance(max(height_km, 0.0), shading.lit.x, ground) * 0.3183099;
+    shading.skylight = view.sun.w * left * sky_irradiance(max(height_km, 0.0), shading.lit.x) * 0.3183099;
+  } else {
+    shading.haze = vec3(0.0);
+    shading.sunlight = vec3(view.sun.w * 0.3183099);
+    shading.skylight = vec3(view.sun.w * 0.3183099 * 0.004);
+  }
+}

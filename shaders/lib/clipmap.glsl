@@ -1,0 +1,22 @@
+// Functions of the clipmap's vertices, plain GLSL of plain arguments: the tests compile this file as C++ too.
+
+// Distance of a node from one image of the nadir along the shortest lattice path, in 1/1024 cells. Integers: both sides of a
+// seam between diamonds, where the lattice is turned, get the same.
+int hex_length(ivec2 offset) {
+  ivec2 a = abs(offset);
+  return max(max(a.x, a.y), abs(offset.x + offset.y));
+}
+
+// Morph factor at a distance: 0 fine, 1 coarse (globe/clipmap/morph.h).
+float morph_factor(int distance, int begin, int end) {
+  return clamp(float(distance - begin) / float(end - begin), 0.0f, 1.0f);
+}
+
+// Exact at both ends, which mix() is not on every driver.
+float exact_mix(float a, float b, float t) { return t >= 1.0f ? b : (t <= 0.0f ? a : a + (b - a) * t); }
+
+// Texel of a toroidal window: `node` counts from the window's first node, `origin` is that node's texel.
+ivec2 torus_texel(ivec2 node, ivec2 origin, int size) {
+  ivec2 texel = node + origin;
+  return ivec2(texel.x >= size ? texel.x - size : texel.x, texel.y >= size ? texel.y - size : texel.y);
+}
