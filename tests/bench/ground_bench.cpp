@@ -1,5 +1,6 @@
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -12,17 +13,20 @@ namespace {
 using namespace globe::planet;
 
 /// Makes tiles of one level around a place, their parents known; counts nodes with the guard.
-void make_tiles(benchmark::State& state, const std::shared_ptr<const Surface>& surface,
-                const globe::dvec3& u) {
+void make_tiles(benchmark::State& state, const std::shared_ptr<const Surface>& surface, const dvec3& u) {
   const int level = static_cast<int>(state.range(0));
   const Place place = locate(u, level);
   TileId id = tile_of({place.d, level, static_cast<int>(place.ij.x), static_cast<int>(place.ij.y)});
-  const TileId first = id;
+  const int count = nodes_per_side(level) / kTileCells;
+  const int span = std::min(16, count);
+  const ivec2 first{std::min(id.ti, count - span), std::min(id.tj, count - span)};
+  int step = 0;
   for (auto _ : state) {
     state.PauseTiming();
-    // A walk longer than the smallest cache, so that every tile is new.
-    id.ti = first.ti + (id.ti - first.ti + 1) % 16;
-    if (id.ti == first.ti) id.tj = first.tj + (id.tj - first.tj + 1) % 16;
+    // A walk as long as the smallest cache or longer, so that every tile is new.
+    id.ti = first.x + step % span;
+    id.tj = first.y + step / span % span;
+    ++step;
     surface->tile(id.parent());
     state.ResumeTiming();
     benchmark::DoNotOptimize(surface->tile(id));
