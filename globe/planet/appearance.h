@@ -3,6 +3,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "globe/planet/surface.h"
+
 namespace globe::planet {
 
 /// What the look of the ground at a node is decided from.
@@ -13,14 +15,30 @@ struct Ground {
   double sin_latitude = 0;
   double edge_m = 1;  ///< distance between neighbouring nodes of the level being coloured
   float roughness = 0;
+  float prominence = 0;  ///< [-1, 1], valley floor to crest; 0 where nothing is synthesised
+  float moisture = 0.5f;
   float mottle = 0;
   glm::vec3 color{0.0f};  ///< ground colour of the map, linear light; ignored unless has_color
   bool has_color = false;
   bool has_sea = false;  ///< ground below height 0 is under water
+  bool airless = false;  ///< no plants, no snow
 };
 
 /// Albedo of the ground, linear light, [0, 1] a channel: the map's colour with the detail it is too coarse to
 /// hold, or height-and-slope colours (Christopoulos 5.4.1) where there is no map.
 glm::vec3 albedo(const Ground& ground);
+
+/// Slope of the drawn ground at a node from its six neighbours (four planes' worth of the tile's lattice).
+struct GroundSlope {
+  dvec3 gradient{0.0};  ///< tangent vector, rise over run
+  double cavity = 0;    ///< as Ground::cavity
+};
+/// `directions`: node_directions of the tile.
+GroundSlope slope_at(const Surface& surface, const SurfaceTile& tile, const TileValues<dvec3>& directions,
+                     int i, int j);
+
+/// Everything albedo asks for at a node of a tile (no guard nodes).
+Ground ground_at(const Surface& surface, const SurfaceTile& tile, const TileValues<dvec3>& directions, int i,
+                 int j);
 
 }  // namespace globe::planet

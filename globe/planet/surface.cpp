@@ -64,6 +64,9 @@ Surface::Surface(PlanetInfo info, std::shared_ptr<const Dataset> dataset, std::u
     const LayerInfo* colors = dataset_->layer("color");
     data_level_ = heights ? heights->level : 0;
     color_level_ = colors ? colors->level : -1;
+  } else {
+    builtin_.emplace(seed);
+    data_level_ = kBuiltinLevel;
   }
   make_roots();
 }
@@ -142,27 +145,65 @@ std::shared_ptr<const SurfaceTile> Surface::make_tile(const TileId& id) const {
   const std::shared_ptr<const SurfaceTile> parent = tile(id.parent());
   auto child = std::make_shared<SurfaceTile>(id);
   predict(parent->height, child->height);
-  for (std::size_t c = 0; c < kChannels; ++c) predict(parent->channels[c], child->channels[c]);
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    if (carries(static_cast<Channel>(c), id.level)) predict(parent->channels[c], child->channels[c]);
+  }
   finish_tile(*child, false);
   return child;
 }
 
+bool Surface::carries(Channel channel, int level) const {
+  switch (channel) {
+    case Channel::kRed:
+    case Channel::kGreen:
+    case Channel::kBlue:
+      return has_colors();
+    case Channel::kMoisture:
+      return builtin_.has_value();
+    case Channel::kCarved:
+    case Channel::kSlopeX:
+    case Channel::kSlopeY:
+    case Channel::kSlopeZ:
+      return level > data_level_ && level <= synthesis().carved_level();
+    case Channel::kRoughness:
+    case Channel::kProminence:
+      return level > data_level_;
+    case Channel::kMottle:
+      return true;
+  }
+  return true;
+}
+
+Synthesis Surface::synthesis() const { return {seed_, root_edge(), data_level_, info_.body == "moon"}; }
+
 void Surface::finish_tile(SurfaceTile& tile, bool own_nodes_only) const {
-  if (dataset_ == nullptr) {
-    synthesise_builtin(seed_, root_edge(), own_nodes_only, tile);
+  const int level = tile.id.level;
+  synthesise_mottle(seed_, own_nodes_only, tile);
+  if (level <= color_level_) read_layer("color", tile, own_nodes_only);
+  if (level > data_level_) {
+    synthesise_detail(synthesis(), own_nodes_only, tile);
     return;
   }
-  if (tile.id.level <= color_level_) read_layer("color", tile, own_nodes_only);
-  if (tile.id.level <= data_level_) {
+  if (builtin_) {
+    synthesise_builtin(*builtin_, own_nodes_only, tile);
+  } else {
     read_layer("height", tile, own_nodes_only);
-    if (tile.id.level < data_level_ && dataset_->layer("relief") != nullptr) {
+    if (level < data_level_ && dataset_->layer("relief") != nullptr) {
       tile.relief.emplace(tile.id);
       read_layer("relief", tile, own_nodes_only);
     }
-    if (tile.id.level == data_level_) measure_roughness(root_edge(), tile);
-  } else {
-    synthesise_detail(seed_, root_edge(), tile.id.level - data_level_, own_nodes_only, tile);
   }
+  if (level == data_level_) {
+    measure_ground(
+        synthesis(), [this](const Node& node) { return measured_height(node); }, own_nodes_only, tile);
+  }
+}
+
+double Surface::measured_height(const Node& node) const {
+  if (builtin_) return builtin_->at(node_direction(node)).height_m;
+  float h = 0.0f;
+  dataset_->read("height", node.d, node.level, node.i, node.j, 1, 1, &h);
+  return static_cast<double>(h);
 }
 
 void Surface::read_layer(const char* layer, SurfaceTile& tile, bool own_nodes_only) const {

@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "globe/geo/ellipsoid.h"
+#include "globe/planet/builtin_planet.h"
 #include "globe/planet/dataset.h"
 #include "globe/planet/subdivision.h"
 
@@ -19,17 +20,21 @@ namespace globe::planet {
 /// What a tile carries beside heights, one float a node. All are carried from level to level by the same
 /// stencil.
 enum class Channel {
-  kRed,  ///< ground colour in linear light, [0, 1]
+  kRed,  ///< ground colour of the map in linear light, [0, 1]
   kGreen,
   kBlue,
-  kRoughness,   ///< how rough synthesised ground is here: 0 a salt flat, 1 high mountains
-  kProminence,  ///< height above the smoothed ground of the levels before, in units of that level's relief: <
-                ///< 0 valley
+  kMoisture,    ///< built-in planet only: 0 desert, 1 rain forest
+  kRoughness,   ///< how rough synthesised ground is here: 0 still water, 1 high mountains
+  kProminence,  ///< about [-1, 1]: -1 on a valley floor, 1 on a crest of the ground below the data
   kMottle,      ///< a fractal without a unit that varies colours, about [-1, 1]
-  kContinent,   ///< built-in planet only: the field continents are cut from
-  kFold,        ///< built-in planet only: the field whose zero lines are mountain chains
+  kCarved,      ///< carved ground that `height` holds, metres; only down to the last carved level
+  kSlopeX,      ///< rise over run of the ground carving starts from, a tangent vector; as far as kCarved
+  kSlopeY,
+  kSlopeZ,
 };
-inline constexpr std::size_t kChannels = 8;
+inline constexpr std::size_t kChannels = 11;
+
+struct Synthesis;
 
 /// Everything known about the nodes of one tile. Immutable once made.
 struct SurfaceTile {
@@ -70,7 +75,8 @@ class Surface {
 
   const PlanetInfo& info() const { return info_; }
   const geo::Ellipsoid& ellipsoid() const { return info_.ellipsoid; }
-  /// Finest level with measured heights; what is finer is synthesised. The built-in planet has none: 0.
+  /// Finest level with measured heights (built-in planet: with its own function); what is finer is
+  /// synthesised.
   int data_level() const { return data_level_; }
   bool has_colors() const { return color_level_ >= 0; }
   /// True when ground below height 0 lies under a sea, which is then drawn as a flat surface at height 0.
@@ -92,6 +98,11 @@ class Surface {
 
   std::shared_ptr<const SurfaceTile> make_tile(const TileId& id) const;
   void make_roots();
+  /// Height of a node of the data's finest level, from the data alone.
+  double measured_height(const Node& node) const;
+  Synthesis synthesis() const;
+  /// Channels that tiles of a level take over from their parents; the others start at 0.
+  bool carries(Channel channel, int level) const;
   /// Fills data and synthesised detail into a predicted tile; `own_nodes_only` leaves the guard alone.
   void finish_tile(SurfaceTile& tile, bool own_nodes_only) const;
   void read_layer(const char* layer, SurfaceTile& tile, bool own_nodes_only) const;
@@ -99,6 +110,7 @@ class Surface {
   PlanetInfo info_;
   std::shared_ptr<const Dataset> dataset_;  ///< null for the built-in planet
   std::uint64_t seed_;
+  std::optional<BuiltinPlanet> builtin_;  ///< where there is no data set
   int data_level_ = 0;
   int color_level_ = -1;
   std::array<std::array<std::shared_ptr<const SurfaceTile>, kDiamonds>, 7>
