@@ -167,11 +167,11 @@ Place locate(const dvec3& u, int level) {
     // Walks by the nearest sign alone: a tie or rounding error puts the point into a neighbour, where the
     // affine coordinates below are still right to the same rounding. Exact ownership is htm::trixel's
     // business.
-    if (determinant(mid[2].u, mid[1].u, u) <= 0.0) {
+    if (determinant(mid[2].u, mid[1].u, u) >= 0.0) {
       t = {t[0], mid[2], mid[1]};
-    } else if (determinant(mid[0].u, mid[2].u, u) <= 0.0) {
+    } else if (determinant(mid[0].u, mid[2].u, u) >= 0.0) {
       t = {mid[2], t[1], mid[0]};
-    } else if (determinant(mid[1].u, mid[0].u, u) <= 0.0) {
+    } else if (determinant(mid[1].u, mid[0].u, u) >= 0.0) {
       t = {mid[1], mid[0], t[2]};
     } else {
       t = {mid[0], mid[1], mid[2]};
