@@ -20,6 +20,7 @@ using globe::planet::Node;
 using globe::planet::nodes_per_side;
 
 constexpr int kBlockSide = 64;
+constexpr int kBlocksBetweenDrops = 16;
 constexpr std::int64_t kMaxWindowSamples = std::int64_t{1} << 21;
 
 struct Rect {
@@ -232,7 +233,7 @@ void sample_nodes(const SourceMap& map, Filter filter, int level, const RowSink&
     const Rect rect{i, j, i + side == n ? side + 1 : side, j + side == n ? side + 1 : side};
     BlockSampler(map, filter, d, level, rect, sink).run();
     const int now = ++done;
-    if (now % 64 == 0) {
+    if (now % kBlocksBetweenDrops == 0) {
       map.drop_pages();
       progress(double(now) / blocks);
     }
