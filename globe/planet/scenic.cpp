@@ -122,7 +122,7 @@ std::pair<double, ScenicView> best_view(const Surface& surface, const dvec3& sum
   std::pair<double, ScenicView> best{-1e30, {}};
   for (int bearing = 0; bearing < 360; bearing += 10) {
     const dvec3 away = geo::look_direction(frame, bearing, 0.0);
-    for (double distance = 12000.0; distance <= 30000.0; distance += 3000.0) {
+    for (double distance = 12000.0; distance <= 36000.0; distance += 4000.0) {
       const dvec3 u = moved(summit, away, distance / radius);
       const double ground = surface.height(u, kEyeLevel);
       if (surface.has_sea() && ground < 20.0) continue;
@@ -139,7 +139,8 @@ std::pair<double, ScenicView> best_view(const Surface& surface, const dvec3& sum
       const double light = 1.0 - 0.5 * std::max(0.0, to_sun - 0.1) - 0.15 * std::max(0.0, -to_sun - 0.6);
       const double open = std::clamp((top - ground) / distance - hidden, -0.1, 0.1);
       if (steepness_at(surface, u) > kGentle) continue;
-      const double score = (top - ground) * light * (1.0 + 6.0 * open);
+      const double low = std::clamp(1.3 - ground / 2500.0, 0.3, 1.0);  // meadows in front
+      const double score = (top - ground) * light * (1.0 + 6.0 * open) * low;
       if (score <= best.first) continue;
       place.h_m = ground;
       best = {score, {place, heading < 0.0 ? heading + 360.0 : heading}};

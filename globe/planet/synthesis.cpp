@@ -95,7 +95,7 @@ void carve(const Synthesis& synthesis, bool own_nodes_only, SurfaceTile& tile) {
 /// some 50 m, so that ground at eye height undulates gently.
 void displace(const Synthesis& synthesis, bool own_nodes_only, SurfaceTile& tile) {
   const double edge = synthesis.edge_m(tile.id.level);
-  const double slope = 0.10 * std::sqrt(edge / (edge + 25.0));
+  const double slope = 0.15 * std::sqrt(edge / (edge + 25.0));
   TileValues<float>& roughness = tile.channel(Channel::kRoughness);
   TileValues<float>& prominence = tile.channel(Channel::kProminence);
   for_each_node(tile.id, own_nodes_only, [&](int i, int j, const Node& node) {
@@ -105,7 +105,7 @@ void displace(const Synthesis& synthesis, bool own_nodes_only, SurfaceTile& tile
     const double rough = std::clamp(roughness.at(i, j), 0.0f, 1.0f);
     const double calm = rough / (rough + 0.004);  // still water stays still
     const double crest = 0.65 + 0.45 * static_cast<double>(prominence.at(i, j));
-    tile.height.at(i, j) += edge * slope * calm * (0.3 + rough) * std::max(0.15, crest) * push;
+    tile.height.at(i, j) += edge * slope * calm * (0.2 + rough) * std::max(0.15, crest) * push;
     prominence.at(i, j) =
         std::clamp(0.85f * prominence.at(i, j) + 0.3f * static_cast<float>(push), -1.0f, 1.0f);
     roughness.at(i, j) *= 1.0f + 0.3f * static_cast<float>(signed_unit(hash * kThird));
