@@ -1,12 +1,27 @@
 #include "app/commands.h"
 
+#include "app/convert.h"
+#include "app/info.h"
+
 namespace app {
 
 std::string version() { return "globe " GLOBE_VERSION; }
 
 void add_commands(CLI::App& program, int& exit_status) {
-  static_cast<void>(program);
-  static_cast<void>(exit_status);
+  add_convert(program, exit_status);
+  add_fly(program);
+  add_info(program, exit_status);
+  add_shot(program);
+  add_lookup(program, exit_status);
+  add_trixel(program, exit_status);
+}
+
+std::vector<std::string> arguments(int argc, const char* const* argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  for (std::string& word : words) {
+    if (word.size() > 2 && word.starts_with("-.") && word[2] >= '0' && word[2] <= '9') word.insert(1, 1, '0');
+  }
+  return {words.rbegin(), words.rend()};
 }
 
 }  // namespace app

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 namespace app {
 
@@ -10,6 +11,16 @@ namespace app {
 /// records failed.
 void add_commands(CLI::App& program, int& exit_status);
 
+void add_lookup(CLI::App& program, int& exit_status);
+void add_trixel(CLI::App& program, int& exit_status);
+
+/// The words after the program's name, last first, as CLI::App::parse takes them. A word such as "-.5,12",
+/// which CLI11 would take for an option (it knows a minus and a digit), becomes "-0.5,12".
+std::vector<std::string> arguments(int argc, const char* const* argv);
+
 std::string version();
+
+void add_fly(CLI::App& program);
+void add_shot(CLI::App& program);
 
 }  // namespace app

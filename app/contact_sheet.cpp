@@ -21,6 +21,7 @@ constexpr const char* kFilter = "triangle";
 std::vector<int> spread(int frames, int cells) {
   const int count = std::min(frames, cells);
   std::vector<int> result;
+  result.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
     result.push_back(count == 1 ? 0 : static_cast<int>(std::lround(double(k) * (frames - 1) / (count - 1))));
   }

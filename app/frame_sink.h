@@ -39,7 +39,7 @@ class FrameSink {
   void stop();
 
   std::unique_ptr<FrameWriter> writer_;
-  std::size_t frame_bytes_;
+  [[maybe_unused]] std::size_t frame_bytes_;  ///< for an assertion
   std::size_t count_ = 0;
 
   std::mutex mutex_;

@@ -154,10 +154,11 @@ std::vector<std::string> ffmpeg_input(const FrameOutput& output) {
 /// colours labelled BT.709. Preset faster takes two thirds of medium's time for files 4 % larger. A fixed
 /// number of threads, since x264's bytes depend on it.
 std::vector<std::string> mp4_arguments() {
+  const std::string even = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
+  const std::string to_bt709 =
+      "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int+bitexact";
   return {"-vf",
-          "pad=ceil(iw/2)*2:ceil(ih/2)*2,"
-          "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int+bitexact,"
-          "format=yuv420p",
+          even + "," + to_bt709 + ",format=yuv420p",
           "-c:v",
           "libx264",
           "-preset",
@@ -222,13 +223,15 @@ class Film : public FrameWriter {
   PipedProgram program_;
 };
 
-/// Y4M, 4:4:4, limited range. The format does not say which matrix: the one that players assume for the size.
+/// Y4M, 4:4:4, limited range. The format does not say which matrix: the one that players assume for the size,
+/// BT.709 for large pictures and BT.601 for small.
 class Y4m : public FrameWriter {
  public:
   explicit Y4m(const FrameOutput& output)
       : file_(output.standard_output),
         planes_(static_cast<std::size_t>(output.width) * static_cast<std::size_t>(output.height) * 3),
-        weights_(output.width >= 1280 || output.height > 576 ? kBt709 : kBt601) {
+        yuv_from_rgb_(output.width >= 1280 || output.height > 576 ? limited_range(0.2126, 0.0722)
+                                                                  : limited_range(0.299, 0.114)) {
     const FrameRate rate = frame_rate(output.fps);
     std::fprintf(file_, "YUV4MPEG2 W%d H%d F%d:%d Ip A1:1 C444 XCOLORRANGE=LIMITED\n", output.width,
                  output.height, rate.numerator, rate.denominator);
@@ -236,13 +239,13 @@ class Y4m : public FrameWriter {
 
   void write(std::span<const std::uint8_t> rgba) override {
     const std::size_t count = planes_.size() / 3;
-    const double green = 1.0 - weights_[0] - weights_[1];
-    for (std::size_t i = 0; i < count; ++i) {
-      const double r = rgba[4 * i], g = rgba[4 * i + 1], b = rgba[4 * i + 2];
-      const double y = weights_[0] * r + green * g + weights_[1] * b;
-      planes_[i] = level(16.0 + y * (219.0 / 255.0));
-      planes_[count + i] = level(128.0 + (b - y) * (112.0 / 255.0) / (1.0 - weights_[1]));
-      planes_[2 * count + i] = level(128.0 + (r - y) * (112.0 / 255.0) / (1.0 - weights_[0]));
+    for (std::size_t plane = 0; plane < 3; ++plane) {
+      const auto [red, green, blue, offset] = yuv_from_rgb_[plane];
+      std::uint8_t* levels = planes_.data() + plane * count;
+      for (std::size_t i = 0; i < count; ++i) {
+        const int level = red * rgba[4 * i] + green * rgba[4 * i + 1] + blue * rgba[4 * i + 2] + offset;
+        levels[i] = static_cast<std::uint8_t>(level >> kFractionBits);
+      }
     }
     if (std::fputs("FRAME\n", file_) < 0 ||
         std::fwrite(planes_.data(), 1, planes_.size(), file_) != planes_.size()) {
@@ -257,16 +260,30 @@ class Y4m : public FrameWriter {
   }
 
  private:
-  /// Shares of red and blue in brightness.
-  using Weights = std::array<double, 2>;
-  static constexpr Weights kBt601 = {0.299, 0.114};
-  static constexpr Weights kBt709 = {0.2126, 0.0722};
+  /// Coefficients of red, green, blue and 1, fixed point with kFractionBits.
+  using Row = std::array<int, 4>;
+  static constexpr int kFractionBits = 16;
 
-  static std::uint8_t level(double value) { return static_cast<std::uint8_t>(value + 0.5); }
+  /// Limited range (16 to 235, 16 to 240), for the shares of red and blue in brightness.
+  static std::array<Row, 3> limited_range(double red, double blue) {
+    const double green = 1.0 - red - blue;
+    constexpr double kY = 219.0 / 255.0, kC = 112.0 / 255.0;
+    const double u = kC / (1.0 - blue), v = kC / (1.0 - red);
+    return {row(kY * red, kY * green, kY * blue, 16.0), row(-u * red, -u * green, kC, 128.0),
+            row(kC, -v * green, -v * blue, 128.0)};
+  }
+
+  /// The offset carries the half that rounds.
+  static Row row(double red, double green, double blue, double offset) {
+    const auto fixed = [](double value) {
+      return static_cast<int>(std::lround(std::ldexp(value, kFractionBits)));
+    };
+    return {fixed(red), fixed(green), fixed(blue), fixed(offset + 0.5)};
+  }
 
   std::FILE* file_;
   std::vector<std::uint8_t> planes_;
-  Weights weights_;
+  std::array<Row, 3> yuv_from_rgb_;
 };
 
 }  // namespace

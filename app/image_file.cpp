@@ -22,7 +22,7 @@ constexpr int kPngLevel = 2;
   throw Error(path.string(), why, "check the folder and the free space of the disk");
 }
 
-void write(const std::filesystem::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+void write(const std::filesystem::path& path, const OIIO::ImageSpec& spec, const OIIO::TypeDesc& type,
            const void* pixels, OIIO::stride_t pixel_bytes) {
   const auto output = OIIO::ImageOutput::create(path.string());
   if (!output) fail(path, OIIO::geterror());

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   int exit_status = 0;
   app::add_commands(program, exit_status);
   try {
-    program.parse(argc, argv);
+    program.parse(app::arguments(argc, argv));
     return exit_status;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);

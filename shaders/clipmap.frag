@@ -45,7 +45,7 @@ void main() {
   vec3 light = albedo * (shading.sunlight * sun + shading.skylight * (0.55 + 0.45 * up));
   light += ground.a * shading.glint * shading.sunlight;
   light += shading.haze;
-  vec3 shown = tone_mapped(light * view.axes_km.w);
+  vec3 shown = tone_mapped(light * view.rounding.w);
 #ifdef SHOW
   if (show == 1) shown = mix(shown, level_tint(layers.z), 0.45);
   if (show == 2) shown = mix(shown, level_tint(layers.z * 7 + layers.x), 0.45);

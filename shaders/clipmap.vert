@@ -91,21 +91,21 @@ void main() {
 #endif
 
   vec3 relative_km = position * 1e-3;
-  vec3 from_centre = view.eye_km.xyz + relative_km;
-  vec3 normal = normalize(from_centre * view.axes_km.xxy);
+  vec3 round_km = relative_km * view.rounding.xxy;  // in round space the air has one thickness everywhere
+  vec3 normal = normalize((view.eye_km.xyz + round_km) * view.rounding.xxy);
   vec3 t1 = normalize(slot.axis.xyz - normal * dot(slot.axis.xyz, normal));
   vec3 t2 = cross(normal, t1);
   vec3 sun = view.sun.xyz;
   shading.lit = vec3(dot(sun, normal), dot(sun, t1), dot(sun, t2));
 
-  float away = length(relative_km);
-  vec3 direction = relative_km / max(away, 1e-9);
+  float away = length(round_km);
+  vec3 direction = round_km / max(away, 1e-9);
   vec3 half_way = normalize(sun - direction);
   float facing = max(dot(normal, half_way), 0.0);
   shading.glint = 1.2 * pow(facing, 180.0) * step(0.0, shading.lit.x);
 
   float height_km = height * 1e-3;
-  if (view.axes_km.z > 0.0) {
+  if (view.rounding.z > 0.0) {
     float ground = view.eye_km.w;
     vec3 left;
     // The stretch of the ray inside the air.
@@ -113,8 +113,10 @@ void main() {
     float along = dot(view.eye_km.xyz, direction);
     float top = ground + kAirTop;
     float entry = radius > top ? max(-along - sqrt(max(along * along - radius * radius + top * top, 0.0)), 0.0) : 0.0;
-    shading.haze = inscattered(view.eye_km.xyz, direction, min(entry, away), away, sun, ground, HAZE_STEPS, left) * view.sun.w;
-    shading.sunlight = view.sun.w * left * sun_transmittance(max(height_km, 0.0), shading.lit.x, ground) * 0.3183099;
+    vec3 sun_here = sun_transmittance(max(height_km, 0.0), shading.lit.x, ground);
+    shading.haze = haze(view.eye_km.xyz, direction, min(entry, away), away, sun, view.sun_at_eye.xyz, sun_here, shading.lit.x,
+                        ground, HAZE_STEPS, left) * view.sun.w;
+    shading.sunlight = view.sun.w * left * sun_here * 0.3183099;
     shading.skylight = view.sun.w * left * sky_irradiance(max(height_km, 0.0), shading.lit.x) * 0.3183099;
   } else {
     shading.haze = vec3(0.0);

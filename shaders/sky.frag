@@ -1,7 +1,11 @@
 #define OUT(type) out type
 #include "lib/atmosphere.glsl"
+#include "lib/sky_map.glsl"
 #include "lib/tone.glsl"
 #include "lib/view.glsl"
+
+layout(binding = 4) uniform sampler2D sky_map;
+layout(location = 0) uniform vec2 size;  // texels of the map
 
 in vec3 ray;
 out vec4 color;
@@ -9,25 +13,26 @@ out vec4 color;
 const float kCosSunRadius = 0.9999892;  // 0.266 degrees
 
 void main() {
-  vec3 direction = normalize(ray);
+  vec3 true_direction = normalize(ray);
   vec3 light = vec3(0.0);
-  vec3 through = vec3(1.0);
-  if (view.axes_km.z > 0.0) {
-    vec3 eye = view.eye_km.xyz;
-    float ground = view.eye_km.w;
-    float top = ground + kAirTop;
-    float along = dot(eye, direction);
-    // Height of the ray's nearest point from the distance itself: no cancellation at orbit.
-    vec3 nearest = eye - direction * along;
-    float gap = top * top - dot(nearest, nearest);
-    if (gap > 0.0) {
-      float half_chord = sqrt(gap);
-      float from = max(-along - half_chord, 0.0);
-      float to = -along + half_chord;
-      if (to > 0.0) light = inscattered(eye, direction, from, to, view.sun.xyz, ground, SKY_STEPS, through) * view.sun.w;
-    }
+  if (view.rounding.z > 0.0) {
+    vec3 direction = normalize(ray * view.rounding.xxy);
+    float radius = length(view.eye_km.xyz);
+    vec3 up = view.eye_km.xyz / radius;
+    float cos_zenith = dot(direction, up);
+    vec2 bounds = sky_bounds(radius, view.eye_km.w, view.eye_km.w + kAirTop);
+    vec3 sun = view.sun.xyz;
+    vec3 level = direction - up * cos_zenith;
+    vec3 toward_sun = sun - up * dot(sun, up);
+    float cos_azimuth = dot(level, toward_sun) * inversesqrt(max(dot(level, level) * dot(toward_sun, toward_sun), 1e-12));
+    vec2 place = vec2(sky_column(clamp(cos_azimuth, -1.0, 1.0)), sky_row(cos_zenith, bounds));
+    vec4 sky = texture(sky_map, (place * (size - 1.0) + 0.5) / size);
+    // Mie light in all colours from its red: it is dimmed on its way as the Rayleigh light is (Bruneton and Neyret, section 4).
+    vec3 mie = sky.w * (sky.xyz / max(sky.x, 1e-7)) * (kRayleigh.x / kRayleigh);
+    light = sky.xyz + mie * mie_phase(dot(direction, sun));
+    light *= view.sun.w * (cos_zenith <= bounds.y ? 1.0 : 0.0);
   }
-  float beside = dot(direction, view.sun.xyz);
-  light += through * view.sun.w * 60.0 * smoothstep(kCosSunRadius - 4e-6, kCosSunRadius + 4e-6, beside);
-  color = vec4(tone_mapped(light * view.axes_km.w), 1.0);
+  float beside = dot(true_direction, view.sun.xyz);
+  light += view.sun_at_eye.xyz * view.sun.w * 60.0 * smoothstep(kCosSunRadius - 4e-6, kCosSunRadius + 4e-6, beside);
+  color = vec4(tone_mapped(light * view.rounding.w), 1.0);
 }

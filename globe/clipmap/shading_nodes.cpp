@@ -21,34 +21,75 @@ using planet::TileId;
 struct Metric {
   glm::dvec2 a{0.0};
   glm::dvec2 b{0.0};
-  double sin_latitude = 0;
-
-  Metric operator*(double k) const { return {a * k, b * k, sin_latitude * k}; }
-  Metric operator+(const Metric& other) const {
-    return {a + other.a, b + other.b, sin_latitude + other.sin_latitude};
-  }
 };
 
-Metric metric_at(const geo::Ellipsoid& ellipsoid, int level, int d, int i, int j) {
-  const int n = planet::nodes_per_side(level);
-  const auto direction = [&](int x, int y) { return planet::node_direction({d, level, x, y}); };
-  const int i0 = std::max(i - 1, 0);
-  const int i1 = std::min(i + 1, n);
-  const int j0 = std::max(j - 1, 0);
-  const int j1 = std::min(j + 1, n);
-  const dvec3 u = direction(i, j);
-  const auto surface = [&](int x, int y) { return geo::surface_point(ellipsoid, direction(x, y)); };
-  const dvec3 along_i = (surface(i1, j) - surface(i0, j)) / static_cast<double>(i1 - i0);
-  const dvec3 along_j = (surface(i, j1) - surface(i, j0)) / static_cast<double>(j1 - j0);
-  const dvec3 axis = shading_axis(d);
-  const dvec3 t1 = glm::normalize(axis - u * glm::dot(u, axis));
-  const dvec3 t2 = glm::cross(u, t1);
-  // [i1 i2; j1 j2] * (slope1, slope2) = (dh/di, dh/dj)
-  const double i_1 = glm::dot(along_i, t1), i_2 = glm::dot(along_i, t2);
-  const double j_1 = glm::dot(along_j, t1), j_2 = glm::dot(along_j, t2);
-  const double det = i_1 * j_2 - i_2 * j_1;
-  return {{j_2 / det, -j_1 / det}, {-i_2 / det, i_1 / det}, u.z};
-}
+/// The lattice's metric over a tile, constant over half-blocks: inside a trixel the grid is nearly affine,
+/// but it has kinks along the edges of coarse trixels, which are sides and anti-diagonals of blocks. (At an
+/// equatorial corner of a diamond the two halves span 90 degrees each, so a metric across them does not
+/// exist.)
+class TileMetric {
+ public:
+  TileMetric(const geo::Ellipsoid& ellipsoid, const TileId& id)
+      : id_(id), block_(block_cells(id)), per_side_(id.cells() / block_) {
+    std::vector<dvec3> normals(static_cast<std::size_t>((per_side_ + 1) * (per_side_ + 1)));
+    for (int y = 0; y <= per_side_; ++y) {
+      for (int x = 0; x <= per_side_; ++x) {
+        normals[static_cast<std::size_t>(y * (per_side_ + 1) + x)] =
+            planet::node_direction({id.d, id.level, id.first_i() + x * block_, id.first_j() + y * block_});
+      }
+    }
+    metrics_.resize(static_cast<std::size_t>(2 * per_side_ * per_side_));
+    const dvec3 axis = shading_axis(id.d);
+    for (int y = 0; y < per_side_; ++y) {
+      for (int x = 0; x < per_side_; ++x) {
+        const auto u = [&](int dx, int dy) {
+          return normals[static_cast<std::size_t>((y + dy) * (per_side_ + 1) + x + dx)];
+        };
+        metrics_[static_cast<std::size_t>(2 * (y * per_side_ + x))] =
+            half_metric(ellipsoid, axis, u(0, 0), u(1, 0), u(0, 1), block_);
+        metrics_[static_cast<std::size_t>(2 * (y * per_side_ + x) + 1)] =
+            half_metric(ellipsoid, axis, u(1, 1), u(0, 1), u(1, 0), -block_);
+      }
+    }
+    sin_latitude_ = normals[0].z;
+  }
+
+  const Metric& at(int i, int j) const {
+    const int x = std::min((i - id_.first_i()) / block_, per_side_ - 1);
+    const int y = std::min((j - id_.first_j()) / block_, per_side_ - 1);
+    const bool upper = (i - id_.first_i() - x * block_) + (j - id_.first_j() - y * block_) > block_;
+    return metrics_[static_cast<std::size_t>(2 * (y * per_side_ + x) + (upper ? 1 : 0))];
+  }
+  /// Of the tile's first node: what colours depend on varies little over a tile.
+  double sin_latitude() const { return sin_latitude_; }
+
+ private:
+  static int block_cells(const TileId& id) {
+    const int block = id.level >= 11 ? 16 : id.level >= 8 ? 4 : 1;
+    return std::min(block, id.cells());
+  }
+
+  static Metric half_metric(const geo::Ellipsoid& ellipsoid, const dvec3& axis, const dvec3& u,
+                            const dvec3& u_i, const dvec3& u_j, double cells) {
+    const dvec3 origin = geo::surface_point(ellipsoid, u);
+    const dvec3 along_i = (geo::surface_point(ellipsoid, u_i) - origin) / cells;
+    const dvec3 along_j = (geo::surface_point(ellipsoid, u_j) - origin) / cells;
+    const dvec3 up = glm::normalize(u + u_i + u_j);
+    const dvec3 t1 = glm::normalize(axis - up * glm::dot(up, axis));
+    const dvec3 t2 = glm::cross(up, t1);
+    // [i1 i2; j1 j2] * (slope1, slope2) = (dh/di, dh/dj)
+    const double i_1 = glm::dot(along_i, t1), i_2 = glm::dot(along_i, t2);
+    const double j_1 = glm::dot(along_j, t1), j_2 = glm::dot(along_j, t2);
+    const double det = i_1 * j_2 - i_2 * j_1;
+    return {{j_2 / det, -j_1 / det}, {-i_2 / det, i_1 / det}};
+  }
+
+  TileId id_;
+  int block_;
+  int per_side_;
+  std::vector<Metric> metrics_;
+  double sin_latitude_ = 0;
+};
 
 glm::u16vec2 encode_normal(const glm::dvec2& slope) {
   const double scale = 1.0 / std::sqrt(1.0 + glm::dot(slope, slope));
@@ -69,30 +110,17 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
                      ShadingBlock& block) {
   const TileId& id = tile.id;
   const planet::TileValues<double>& h = tile.shading_height();
-  const int step = std::min(16, id.cells());
-  const int per_side = id.cells() / step + 1;
-  std::vector<Metric> metrics(static_cast<std::size_t>(per_side * per_side));
-  for (int y = 0; y < per_side; ++y) {
-    for (int x = 0; x < per_side; ++x) {
-      metrics[static_cast<std::size_t>(y * per_side + x)] =
-          metric_at(surface.ellipsoid(), id.level, id.d, id.first_i() + x * step, id.first_j() + y * step);
-    }
-  }
+  const TileMetric metrics(surface.ellipsoid(), id);
   const double edge = std::ldexp(surface.root_edge(), -id.level);
   const bool sea = surface.has_sea();
   planet::Ground ground;
   ground.edge_m = edge;
   ground.has_color = surface.has_colors();
   ground.has_sea = sea;
+  ground.sin_latitude = metrics.sin_latitude();
   for (int j = part.j0; j <= part.j1; ++j) {
-    const int my = std::min((j - id.first_j()) / step, per_side - 2);
-    const double fy = static_cast<double>(j - id.first_j() - my * step) / step;
     for (int i = part.i0; i <= part.i1; ++i) {
-      const int mx = std::min((i - id.first_i()) / step, per_side - 2);
-      const double fx = static_cast<double>(i - id.first_i() - mx * step) / step;
-      const Metric* m = &metrics[static_cast<std::size_t>(my * per_side + mx)];
-      const Metric metric = (m[0] * (1.0 - fx) + m[1] * fx) * (1.0 - fy) +
-                            (m[per_side] * (1.0 - fx) + m[per_side + 1] * fx) * fy;
+      const Metric& metric = metrics.at(i, j);
       const double own = h.at(i, j);
       const double e = h.at(i + 1, j), w = h.at(i - 1, j), s = h.at(i, j + 1), n = h.at(i, j - 1);
       const double se = h.at(i - 1, j + 1), ne = h.at(i + 1, j - 1);
@@ -102,7 +130,6 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
       ground.slope = metric.a * di + metric.b * dj;
       ground.height_m = tile.height.at(i, j);
       ground.cavity = (own - (e + w + s + n + se + ne) / 6.0) / edge;
-      ground.sin_latitude = metric.sin_latitude;
       ground.roughness = tile.channel(planet::Channel::kRoughness).at(i, j);
       ground.mottle = tile.channel(planet::Channel::kMottle).at(i, j);
       ground.color = {tile.channel(planet::Channel::kRed).at(i, j),

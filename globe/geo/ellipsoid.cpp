@@ -15,6 +15,17 @@ namespace {
 /// Removes the sign of a zero, so that equal points have equal bits.
 double positive_zero(double x) { return x + 0.0; }
 
+/// Sine and cosine of degrees. At 45 degrees and its odd multiples both have the same magnitude, that of the
+/// coordinates of htm::midpoint of two axes, so that these latitudes and longitudes land on HTM's vertices.
+void sine_cosine(double angle_deg, double& sine, double& cosine) {
+  GeographicLib::Math::sincosd(angle_deg, sine, cosine);
+  if (std::abs(std::remainder(angle_deg, 90.0)) == 45.0) {
+    const double half_diagonal = 1.0 / std::sqrt(2.0);
+    sine = std::copysign(half_diagonal, sine);
+    cosine = std::copysign(half_diagonal, cosine);
+  }
+}
+
 }  // namespace
 
 Ellipsoid make_ellipsoid(double a, double f) {
@@ -32,8 +43,8 @@ Ellipsoid make_ellipsoid(double a, double f) {
 dvec3 normal_from_degrees(double lat_deg, double lon_deg) {
   assert(std::abs(lat_deg) <= 90.0 && std::isfinite(lon_deg));
   double sin_lat = 0, cos_lat = 0, sin_lon = 0, cos_lon = 0;
-  GeographicLib::Math::sincosd(lat_deg, sin_lat, cos_lat);
-  GeographicLib::Math::sincosd(lon_deg, sin_lon, cos_lon);
+  sine_cosine(lat_deg, sin_lat, cos_lat);
+  sine_cosine(lon_deg, sin_lon, cos_lon);
   return {positive_zero(cos_lat * cos_lon), positive_zero(cos_lat * sin_lon), positive_zero(sin_lat)};
 }
 
@@ -45,10 +56,10 @@ Geodetic degrees_from_normal(const dvec3& u) {
 }
 
 dvec3 surface_point(const Ellipsoid& ellipsoid, const dvec3& u) {
-  const double a2 = ellipsoid.a * ellipsoid.a;
-  const double b2 = ellipsoid.b() * ellipsoid.b();
-  const double n = 1.0 / std::sqrt(a2 * (u.x * u.x + u.y * u.y) + b2 * (u.z * u.z));
-  return {a2 * u.x * n, a2 * u.y * n, b2 * u.z * n};
+  // The formula divided by a², with uz scaled by b/a first and divisions kept: exact on the axes.
+  const double w = (1.0 - ellipsoid.f) * u.z;
+  const double n = std::sqrt(u.x * u.x + u.y * u.y + w * w);
+  return {ellipsoid.a * (u.x / n), ellipsoid.a * (u.y / n), ellipsoid.b() * (w / n)};
 }
 
 dvec3 ecef_from_normal(const Ellipsoid& ellipsoid, const dvec3& u, double h_m) {
@@ -60,6 +71,7 @@ dvec3 ecef_from_geodetic(const Ellipsoid& ellipsoid, const Geodetic& geodetic) {
 }
 
 Geodetic geodetic_from_ecef(const Ellipsoid& ellipsoid, const dvec3& ecef) {
+  if (ecef == dvec3(0.0)) return {90.0, 0.0, -ellipsoid.b(), true};
   const GeographicLib::Geocentric earth(ellipsoid.a, ellipsoid.f);
   Geodetic result;
   earth.Reverse(ecef.x, ecef.y, ecef.z, result.lat_deg, result.lon_deg, result.h_m);

@@ -8,9 +8,10 @@ using glm::dvec3;
 
 /// Geodetic coordinates: degrees and metres. Latitude first, as everywhere in this project.
 struct Geodetic {
-  double lat_deg = 0;  ///< geodetic latitude, [-90, 90]
-  double lon_deg = 0;  ///< longitude, any size on input, [-180, 180) on output
-  double h_m = 0;      ///< height above the ellipsoid
+  double lat_deg = 0;      ///< geodetic latitude, [-90, 90]
+  double lon_deg = 0;      ///< longitude, any size on input, [-180, 180) on output
+  double h_m = 0;          ///< height above the ellipsoid
+  bool at_center = false;  ///< the ellipsoid's centre, where no normal is defined (geodetic_from_ecef only)
 };
 
 /// An ellipsoid of revolution: equatorial radius a (metres) and flattening f.
@@ -39,8 +40,8 @@ Ellipsoid make_ellipsoid(double a, double f);
 /// Geodetic normal of a latitude and longitude in degrees.
 ///
 /// The angles are folded in degrees first, which is exact, so that longitudes 0, 90, 180, 270 and the poles
-/// land exactly on the axes; signed zeros are made positive. Latitudes outside [-90, 90] and NaN: asserted
-/// against.
+/// land exactly on the axes, and 45 degrees on HTM's vertices of level 1; signed zeros are made positive.
+/// Latitudes outside [-90, 90] and NaN: asserted against.
 dvec3 normal_from_degrees(double lat_deg, double lon_deg);
 
 /// Latitude and longitude in degrees ([-180, 180)) of a direction of any length; h_m is 0.
@@ -58,7 +59,8 @@ dvec3 ecef_from_normal(const Ellipsoid& ellipsoid, const dvec3& u, double h_m);
 dvec3 ecef_from_geodetic(const Ellipsoid& ellipsoid, const Geodetic& geodetic);
 
 /// Geodetic coordinates of an ECEF point (GeographicLib::Geocentric; at most 7 nm within 5000 km of the
-/// surface).
+/// surface; 4 ulp of the coordinates farther out). The centre is flagged, and answers latitude 90, longitude
+/// 0, h = -b.
 Geodetic geodetic_from_ecef(const Ellipsoid& ellipsoid, const dvec3& ecef);
 
 /// Local east, north, up at a geodetic normal. At a pole east is +y turned by the longitude given (degrees).

@@ -41,6 +41,11 @@ class Framebuffer {
   void resolve() const;
 
   const Texture& color() const { return color_; }
+  /// How later passes look the colours up: GL_NEAREST (the default) or GL_LINEAR, borders clamped.
+  void set_color_filter(GLenum filter) {
+    color_.set_filter(filter, filter);
+    color_.set_wrap(GL_CLAMP_TO_EDGE);
+  }
   const Texture& depth() const { return depth_; }
 
   /// Finished pictures, top row first: RGBA bytes, RGBA floats, depth-buffer values. They wait for the GPU.

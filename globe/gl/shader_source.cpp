@@ -54,7 +54,8 @@ class Assembler {
         append(*included, name + ":" + std::to_string(number));
         source_.text += line_directive(number + 1, file);
       } else {
-        source_.text += line + "\n";
+        source_.text += line;
+        source_.text += '\n';
       }
     }
   }
@@ -90,20 +91,23 @@ std::string log_with_names(const std::string& log, const std::vector<std::string
   // Source number and line in the dialects of Mesa, NVIDIA and the rest; each at the start of a line of the
   // log.
   static const std::regex pattern(R"re(^(ERROR: |WARNING: )?(\d+)(?::(\d+)(?:\(\d+\))?|\((\d+)\))\s*:\s*)re");
-  std::string result;
+  std::ostringstream result;
   std::istringstream lines(log);
   std::string line;
   while (std::getline(lines, line)) {
+    if (line.empty()) continue;
+    if (result.tellp() > 0) result << '\n';
     std::smatch match;
-    if (std::regex_search(line, match, pattern)) {
-      const std::size_t file = std::stoul(match[2].str());
-      const std::string number = match[3].matched ? match[3].str() : match[4].str();
-      const std::string name = file < files.size() ? files[file] : "(generated)";
-      line = name + ":" + number + ": " + match[1].str() + match.suffix().str();
+    if (!std::regex_search(line, match, pattern)) {
+      result << line;
+      continue;
     }
-    if (!line.empty()) result += (result.empty() ? "" : "\n") + line;
+    const std::size_t file = std::stoul(match[2].str());
+    result << (file < files.size() ? files[file] : "(generated)") << ':'
+           << (match[3].matched ? match[3].str() : match[4].str()) << ": " << match[1].str()
+           << match.suffix().str();
   }
-  return result;
+  return result.str();
 }
 
 }  // namespace globe::gl

@@ -21,7 +21,6 @@ PixelLayout pixel_layout(GLenum format) {
     case GL_RG8:
       return {GL_RG, GL_UNSIGNED_BYTE, 2};
     case GL_RGBA8:
-      return {GL_RGBA, GL_UNSIGNED_BYTE, 4};
     case GL_SRGB8_ALPHA8:
       return {GL_RGBA, GL_UNSIGNED_BYTE, 4};
     case GL_R16:
@@ -53,7 +52,6 @@ PixelLayout pixel_layout(GLenum format) {
     case GL_R8UI:
       return {GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1};
     case GL_DEPTH_COMPONENT24:
-      return {GL_DEPTH_COMPONENT, GL_FLOAT, 4};
     case GL_DEPTH_COMPONENT32F:
       return {GL_DEPTH_COMPONENT, GL_FLOAT, 4};
     default:

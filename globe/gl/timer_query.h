@@ -6,7 +6,10 @@
 
 namespace globe::gl {
 
-/// GPU time between begin() and end(). One at a time may run. (GL_TIME_ELAPSED)
+/// GPU time between begin() and end(), which may overlap others'. (glQueryCounter)
+///
+/// Two time stamps rather than GL_TIME_ELAPSED: llvmpipe 22.3 never takes the starting time of that when it
+/// begins before a framebuffer was ever drawn to, and answers the machine's uptime.
 class TimerQuery {
  public:
   TimerQuery() = default;
@@ -23,7 +26,7 @@ class TimerQuery {
  private:
   static void destroy(GLuint id);
 
-  Name<&TimerQuery::destroy> name_;
+  Name<&TimerQuery::destroy> begin_, end_;
 };
 
 }  // namespace globe::gl

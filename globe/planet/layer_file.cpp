@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <cstring>
+#include <vector>
 
 #include "globe/base/error.h"
 #include "globe/planet/grid.h"
@@ -23,6 +25,24 @@ OIIO::TypeDesc type_of(const std::string& storage) {
 bool needs_big_tiff(const OIIO::ImageSpec& finest) {
   constexpr std::uint64_t kSafe = 3'500'000'000;
   return finest.image_bytes() / 3 * 4 > kSafe;
+}
+
+/// One tile of a level; what lies beyond the level repeats its last row and column. (Left to itself,
+/// OpenImageIO fills such tiles with whatever was in memory, and files differ from run to run.)
+void cut_tile(const void* samples, int side, std::size_t sample_bytes, int x, int y, int tile_size,
+              std::vector<std::byte>& tile) {
+  const auto t = static_cast<std::size_t>(tile_size);
+  tile.resize(t * t * sample_bytes);
+  const auto inside = static_cast<std::size_t>(std::min(tile_size, side - x));
+  for (std::size_t row = 0; row < t; ++row) {
+    const auto from_y = static_cast<std::size_t>(std::min(y + static_cast<int>(row), side - 1));
+    const auto* from = static_cast<const std::byte*>(samples) +
+                       (from_y * static_cast<std::size_t>(side) + static_cast<std::size_t>(x)) * sample_bytes;
+    std::byte* to = tile.data() + row * t * sample_bytes;
+    std::memcpy(to, from, inside * sample_bytes);
+    for (std::size_t column = inside; column < t; ++column)
+      std::memcpy(to + column * sample_bytes, from + (inside - 1) * sample_bytes, sample_bytes);
+  }
 }
 
 }  // namespace
@@ -69,13 +89,13 @@ void LayerFileWriter::write_level(const void* samples, const std::function<void(
   const auto mode = s.first ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendSubimage;
   if (!s.output->open(s.path.string(), spec, mode)) s.fail();
   s.first = false;
-  const std::size_t row_bytes =
-      static_cast<std::size_t>(side) * static_cast<std::size_t>(s.channels) * s.type.size();
+  std::vector<std::byte> tile;
   for (int y = 0; y < side; y += s.tile_size) {
-    const int end = std::min(y + s.tile_size, side);
-    const auto* band = static_cast<const std::byte*>(samples) + static_cast<std::size_t>(y) * row_bytes;
-    if (!s.output->write_tiles(0, side, y, end, 0, 1, s.type, band)) s.fail();
-    if (written) written(end - y);
+    for (int x = 0; x < side; x += s.tile_size) {
+      cut_tile(samples, side, static_cast<std::size_t>(s.channels) * s.type.size(), x, y, s.tile_size, tile);
+      if (!s.output->write_tile(x, y, 0, s.type, tile.data())) s.fail();
+    }
+    if (written) written(std::min(s.tile_size, side - y));
   }
   --s.level;
 }

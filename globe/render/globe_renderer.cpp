@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "globe/clipmap/morph.h"
+#include "globe/render/air.h"
 
 namespace globe::render {
 namespace {
@@ -19,14 +21,18 @@ struct ViewBlock {
   glm::mat4 clip_from_relative;
   glm::vec4 eye_km;
   glm::vec4 sun;
-  glm::vec4 axes_km;
+  glm::vec4 rounding;
   glm::vec4 right;
   glm::vec4 up;
   glm::vec4 forward;
+  glm::vec4 sun_at_eye;
 };
 
-constexpr float kSunlight = 10.0f;  ///< sunlight above the air, in units of the tone curve's white
+constexpr float kSunlight = 4.0f;  ///< sunlight above the air, in units of the tone curve's white
 constexpr float kExposure = 1.0f;
+constexpr int kHazeSteps = 4;           ///< samples of the air between the eye and a vertex
+constexpr int kSkySteps = 16;           ///< samples of the air along a ray of the sky map
+constexpr glm::ivec2 kSkyMap{32, 128};  ///< texels across azimuth and up from the horizon
 constexpr std::size_t kMaxInstances = 32768;
 constexpr float kLateFade = 0.1f;  ///< a level that arrives late morphs in by this much a frame
 /// Nothing drawn lies lower: the deepest ground of the bodies known, and the sag of base-level triangles.
@@ -39,7 +45,7 @@ bool has_air(const planet::PlanetInfo& info) {
 gl::Program ground_program(Kind kind, const RenderSettings& settings) {
   gl::ProgramSources sources;
   sources.files = {"clipmap.vert", "clipmap.frag"};
-  sources.defines = {"MAX_SLOTS " + std::to_string(kMaxSlots), "HAZE_STEPS 4"};
+  sources.defines = {"MAX_SLOTS " + std::to_string(kMaxSlots), "HAZE_STEPS " + std::to_string(kHazeSteps)};
   if (kind != Kind::kPlain) sources.defines.push_back("MORPH");
   if (kind == Kind::kRim) sources.defines.push_back("RIM");
   if (settings.show != Show::kGround || settings.wireframe) sources.defines.push_back("SHOW");
@@ -49,23 +55,27 @@ gl::Program ground_program(Kind kind, const RenderSettings& settings) {
 ViewBlock view_block(const Camera& camera, const planet::Surface& surface, const glm::dvec3& sun,
                      double near_m) {
   const geo::Ellipsoid& ellipsoid = surface.ellipsoid();
-  const double a = ellipsoid.a * 1e-3;
-  const double b = ellipsoid.b() * 1e-3;
-  // The air follows the ellipsoid; the sphere of the camera's own radius stands for it.
-  const double ground =
-      glm::length(geo::surface_point(
-          ellipsoid,
-          glm::normalize(camera.position * glm::dvec3(1.0 / (a * a), 1.0 / (a * a), 1.0 / (b * b))))) *
-      1e-3;
+  // The air follows the ellipsoid: scaled until that is a sphere, it is as thick everywhere.
+  const double radius = ellipsoid.mean_radius();
+  const glm::dvec3 rounding(radius / ellipsoid.a, radius / ellipsoid.a, radius / ellipsoid.b());
   ViewBlock block{};
   block.clip_from_relative = glm::mat4(clip_from_relative(camera, near_m));
-  block.eye_km = glm::vec4(glm::vec3(camera.position * 1e-3), static_cast<float>(ground));
+  block.eye_km = glm::vec4(glm::vec3(camera.position * rounding * 1e-3), static_cast<float>(radius * 1e-3));
   block.sun = glm::vec4(glm::vec3(sun), kSunlight);
-  block.axes_km = {static_cast<float>(1.0 / (a * a)), static_cast<float>(1.0 / (b * b)),
-                   has_air(surface.info()) ? 1.0f : 0.0f, kExposure};
+  block.rounding = {static_cast<float>(rounding.x), static_cast<float>(rounding.z),
+                    has_air(surface.info()) ? 1.0f : 0.0f, kExposure};
   block.right = glm::vec4(glm::vec3(camera.right * camera.tan_x()), 0.0f);
   block.up = glm::vec4(glm::vec3(camera.up * camera.tan_y()), 0.0f);
   block.forward = glm::vec4(glm::vec3(camera.forward), 0.0f);
+  const glm::dvec3 eye_km = camera.position * rounding * 1e-3;
+  const double height_km = std::max(glm::length(eye_km) - radius * 1e-3, 0.0);
+  block.sun_at_eye = glm::vec4(1.0f);
+  if (has_air(surface.info())) {
+    block.sun_at_eye = glm::vec4(sun_transmittance(static_cast<float>(height_km),
+                                                   static_cast<float>(glm::dot(glm::normalize(eye_km), sun)),
+                                                   static_cast<float>(radius * 1e-3)),
+                                 0.0f);
+  }
   return block;
 }
 
@@ -99,8 +109,14 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
   if (!settings_.background) {
     gl::ProgramSources sources;
     sources.files = {"sky.vert", "sky.frag"};
-    sources.defines = {"SKY_STEPS 8"};
     sky_ = gl::Program(sources);
+    if (has_air(surface_->info())) {
+      sources.files = {"sky.vert", "sky_map.frag"};
+      sources.defines = {"SKY_STEPS " + std::to_string(kSkySteps)};
+      sky_map_program_ = gl::Program(sources);
+      sky_map_ = gl::Framebuffer(kSkyMap.x, kSkyMap.y, {1, GL_RGBA16F, GL_DEPTH_COMPONENT32F});
+      sky_map_.set_color_filter(GL_LINEAR);
+    }
   }
 }
 
@@ -168,6 +184,11 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   shown_fade_ = fade;
   shown_finest_ = stats.finest_level;
 
+  const ViewBlock view = view_block(camera, *surface_, sun, near_distance(surface_->ellipsoid(), above));
+  view_.upload(0, &view, sizeof(view));
+  view_.bind_base(GL_UNIFORM_BUFFER, 0);
+  if (sky_map_program_) fill_sky_map();
+
   target.bind();
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
@@ -184,23 +205,34 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   target.clear_color(background.r, background.g, background.b, 1.0f);
   target.clear_depth(0.0f);
 
-  const ViewBlock view = view_block(camera, *surface_, sun, near_distance(surface_->ellipsoid(), above));
-  view_.upload(0, &view, sizeof(view));
-  view_.bind_base(GL_UNIFORM_BUFFER, 0);
+  const auto begin = std::chrono::steady_clock::now();
   const DrawList list =
       make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), kLowestGround, camera,
                      stats.finest_level, fade, settings_.cull_patches);
+  stats.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   stats.patches = list.patches;
   draw_ground(list, stats);
   if (sky_) {
     glDepthFunc(GL_GEQUAL);
     glDepthMask(GL_FALSE);
     sky_array_.bind();
+    if (sky_map_program_) sky_map_.color().bind(4);
     sky_->use();
+    sky_->set(0, glm::vec2(kSkyMap));
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDepthMask(GL_TRUE);
   }
   return stats;
+}
+
+void GlobeRenderer::fill_sky_map() {
+  sky_map_.bind();
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  sky_array_.bind();
+  sky_map_program_->use();
+  sky_map_program_->set(0, glm::vec2(kSkyMap));
+  glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void GlobeRenderer::draw_ground(const DrawList& list, FrameStats& stats) {

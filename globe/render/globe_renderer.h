@@ -37,6 +37,7 @@ struct FrameStats {
   std::size_t triangles = 0;
   std::size_t patches = 0;
   std::size_t upload_bytes = 0;
+  double cpu_ms = 0;  ///< choosing levels and patches: our own work, loading and the driver's left out
   int queued_jobs = 0;
   int finest_level = 0;
   bool complete = true;
@@ -67,6 +68,7 @@ class GlobeRenderer {
  private:
   /// Brings the state as far toward the target as is allowed; returns the bytes uploaded.
   std::size_t load(const clipmap::Target& target, bool wait);
+  void fill_sky_map();
   void draw_ground(const DrawList& list, FrameStats& stats);
   void draw_batches(const DrawList& list, const glm::vec4& overlay);
 
@@ -77,7 +79,9 @@ class GlobeRenderer {
   gl::Buffer vertices_, indices_, instances_, view_, slots_;
   gl::VertexArray ground_array_, sky_array_;
   std::array<gl::Program, 3> ground_;  ///< by Kind
-  std::optional<gl::Program> sky_;
+  std::optional<gl::Program> sky_,
+      sky_map_program_;  ///< none with a background; no map where there is no air
+  gl::Framebuffer sky_map_;
   ClipmapTextures textures_;
   std::shared_ptr<const clipmap::ClipmapState> state_;
   float shown_fade_ = 0.0f;  ///< of the finest level last frame, to let late arrivals morph in

@@ -53,20 +53,62 @@ float mie_phase(float cos_angle) {
   return 0.1193662f * (1.0f - g2) * (1.0f + cos_angle * cos_angle) / ((2.0f + g2) * base * sqrt(base));
 }
 
-// Light scattered toward the eye between two distances along a ray (km), for sunlight of 1. `steps` is the knob: error falls
-// with its square. Twice-scattered light is added as a share of the once-scattered without direction.
-vec3 inscattered(vec3 eye, vec3 direction, float from, float to, vec3 sun, float ground, int steps, OUT(vec3) transmitted) {
+// Distance along a ray of sample x in [0, 1]: samples crowd where the ray is lowest, at distance `lowest` between `from` and `to`,
+// for there the air is densest: the near end of a look upward, the far end of a look down, the middle of a look past the limb.
+float sample_distance(float x, float from, float lowest, float to) {
+  float begin = lowest > from + 1e-3f ? 0.0f : 0.5f;
+  float end = to > lowest + 1e-3f ? 1.0f : 0.5f;
+  float side = 2.0f * (begin + (end - begin) * x) - 1.0f;
+  return side < 0.0f ? lowest - (lowest - from) * side * side : lowest + (to - lowest) * side * side;
+}
+
+// The same light between the eye and a place on the ground, cheap enough for every vertex: the sun's share is taken at both ends
+// and carried linearly between them.
+vec3 haze(vec3 eye, vec3 direction, float from, float to, vec3 sun, vec3 sun_at_from, vec3 sun_at_to, float cos_sun, float ground,
+          int steps, OUT(vec3) transmitted) {
   float cos_angle = dot(direction, sun);
-  float phase_r = rayleigh_phase(cos_angle);
   float phase_m = mie_phase(cos_angle);
+  vec3 again = sky_irradiance(0.0f, cos_sun) * 0.35f;
+  float lowest = clamp(-dot(eye, direction), from, to);
+  vec3 first = sun_at_from * rayleigh_phase(cos_angle);
+  vec3 change = (sun_at_to - sun_at_from) * rayleigh_phase(cos_angle);
+  float mie_share = phase_m / rayleigh_phase(cos_angle);
   vec3 light = vec3(0.0f);
   float column_r = 0.0f;
   float column_m = 0.0f;
   float previous = from;
   for (int k = 0; k < steps; ++k) {
-    // Steps grow with distance, so that both the near haze and the far limb are sampled.
-    float f = float(k + 1) / float(steps);
-    float next = from + (to - from) * f * f;
+    float next = sample_distance(float(k + 1) / float(steps), from, lowest, to);
+    float length = next - previous;
+    float middle = 0.5f * (previous + next);
+    vec3 p = eye + direction * middle;
+    float h = max(sqrt(dot(p, p)) - ground, 0.0f);
+    float density_r = exp(-h / kRayleighHeight) * length;
+    float density_m = exp(-h / kMieHeight) * length;
+    vec3 here = extinction(column_r + 0.5f * density_r, column_m + 0.5f * density_m);
+    vec3 lit = first + change * ((middle - from) / max(to - from, 1e-6f));
+    float mie = kMieScattering * density_m;
+    light += here * (lit * (kRayleigh * density_r + vec3(mie * mie_share)) + again * (kRayleigh * density_r + vec3(mie)));
+    column_r += density_r;
+    column_m += density_m;
+    previous = next;
+  }
+  transmitted = extinction(column_r, column_m);
+  return light;
+}
+
+// Sky light along a ray (km), for sunlight of 1: Rayleigh and repeated scattering in rgb, Mie scattering without its phase, in
+// red, in alpha. `steps` is the knob: error falls with its square. Twice-scattered light is added as a share of the
+// once-scattered without direction.
+vec4 sky_light(vec3 eye, vec3 direction, float from, float to, vec3 sun, float ground, int steps) {
+  float phase_r = rayleigh_phase(dot(direction, sun));
+  float lowest = clamp(-dot(eye, direction), from, to);
+  vec4 light = vec4(0.0f);
+  float column_r = 0.0f;
+  float column_m = 0.0f;
+  float previous = from;
+  for (int k = 0; k < steps; ++k) {
+    float next = sample_distance(float(k + 1) / float(steps), from, lowest, to);
     float length = next - previous;
     vec3 p = eye + direction * (0.5f * (previous + next));
     float r = sqrt(dot(p, p));
@@ -75,14 +117,14 @@ vec3 inscattered(vec3 eye, vec3 direction, float from, float to, vec3 sun, float
     float density_m = exp(-h / kMieHeight) * length;
     float cos_sun = dot(p, sun) / r;
     vec3 here = extinction(column_r + 0.5f * density_r, column_m + 0.5f * density_m);
-    vec3 lit = sun_transmittance(h, cos_sun, ground);
-    vec3 again = sky_irradiance(h, cos_sun) * 0.35f;
-    light += here * (lit * (kRayleigh * (density_r * phase_r) + vec3(kMieScattering * density_m * phase_m)) +
-                     again * (kRayleigh * density_r + vec3(kMieScattering * density_m)));
+    vec3 lit = here * sun_transmittance(h, cos_sun, ground);
+    vec3 again = here * sky_irradiance(h, cos_sun) * 0.35f;
+    vec3 rayleigh = kRayleigh * density_r;
+    float mie = kMieScattering * density_m;
+    light += vec4(lit * rayleigh * phase_r + again * (rayleigh + vec3(mie)), lit.x * mie);
     column_r += density_r;
     column_m += density_m;
     previous = next;
   }
-  transmitted = extinction(column_r, column_m);
   return light;
 }

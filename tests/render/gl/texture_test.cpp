@@ -96,13 +96,14 @@ TEST_F(TextureGlTest, WrappedUploadPutsEachTexelAtItsToroidalAddress) {
     box.height = 1 + static_cast<int>(random() % kHeight);
     box.layer = 1;
     const int row_length = box.width + static_cast<int>(random() % 3);
-    std::vector<float> data(static_cast<std::size_t>(row_length * box.height));
+    std::vector<float> data(static_cast<std::size_t>(row_length) * static_cast<std::size_t>(box.height));
     for (float& value : data) value = static_cast<float>(random() % 100000);
     texture.upload_wrapped(box, data.data(), row_length);
     for (int j = 0; j < box.height; ++j) {
       for (int i = 0; i < box.width; ++i) {
         const int at = modulo(box.y + j, kHeight) * kWidth + modulo(box.x + i, kWidth);
-        expected[static_cast<std::size_t>(at)] = data[static_cast<std::size_t>(j * row_length + i)];
+        const int from = j * row_length + i;
+        expected[static_cast<std::size_t>(at)] = data[static_cast<std::size_t>(from)];
       }
     }
     ASSERT_EQ(texture.read<float>({0, 0, kWidth, kHeight, 1}), expected) << "round " << round;

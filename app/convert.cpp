@@ -1,0 +1,172 @@
+#include "app/convert.h"
+
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/parse_options.h"
+#include "app/progress.h"
+#include "converters/convert.h"
+#include "globe/base/error.h"
+
+namespace app {
+namespace {
+
+constexpr double kFoot = 0.3048;
+constexpr int kMaxConvertLevel = 20;
+
+/// The command line as it was typed.
+struct Arguments {
+  std::vector<std::string> heights;
+  std::vector<std::string> colors;
+  std::string planet;
+  int level = -1;
+  std::string filter;
+  std::string ellipsoid;
+  std::string latitude = "geodetic";
+  std::vector<std::string> extents;
+  std::vector<std::string> registrations;
+  double scale = 1;
+  double offset = 0;
+  std::string units = "m";
+  std::string nodata;
+  std::vector<std::string> credits;
+  int memory_mb = 0;
+  int threads = 0;
+  bool overwrite = false;
+  bool quiet = false;
+  std::string progress;
+};
+
+/// `texts` go to the heights first, then to the color map.
+template <typename T, typename Parse>
+void assign(const std::vector<std::string>& texts, const std::string& option,
+            std::optional<T> converters::MapInput::*member, converters::ConvertOptions& options,
+            const Parse& parse) {
+  std::vector<converters::MapInput*> maps;
+  if (options.heights) maps.push_back(&*options.heights);
+  if (options.colors) maps.push_back(&*options.colors);
+  if (texts.size() > maps.size()) {
+    throw globe::UsageError(option, "given more often than there are maps",
+                            "give it once for each, heights first");
+  }
+  for (std::size_t k = 0; k < texts.size(); ++k) maps[k]->*member = parse(texts[k]);
+}
+
+std::optional<converters::MapInput> only_map(const std::vector<std::string>& paths, const std::string& what) {
+  if (paths.empty()) return std::nullopt;
+  if (paths.size() > 1) {
+    throw globe::UsageError(what, "several maps cannot be put together yet",
+                            "give one map of the whole planet");
+  }
+  return converters::MapInput{paths.front(), std::nullopt, std::nullopt};
+}
+
+converters::ConvertOptions options_from(const Arguments& arguments) {
+  static const std::map<std::string, converters::Filter> filters{{"nearest", converters::Filter::kNearest},
+                                                                 {"bilinear", converters::Filter::kBilinear},
+                                                                 {"bicubic", converters::Filter::kBicubic},
+                                                                 {"area", converters::Filter::kArea}};
+  converters::ConvertOptions options;
+  options.heights = only_map(arguments.heights, "HEIGHTS");
+  options.colors = only_map(arguments.colors, "--color");
+  if (!options.heights && !options.colors) {
+    throw globe::UsageError("convert", "no map given", "give a height map, --color MAP, or both");
+  }
+  assign(arguments.extents, "--extent", &converters::MapInput::extent, options, parse_extent);
+  assign(arguments.registrations, "--registration", &converters::MapInput::registration, options,
+         [](const std::string& text) {
+           return text == "area" ? converters::Registration::kArea : converters::Registration::kPoint;
+         });
+  options.planet = arguments.planet;
+  if (arguments.level >= 0) options.level = arguments.level;
+  if (!arguments.filter.empty()) options.filter = filters.at(arguments.filter);
+  if (!arguments.ellipsoid.empty()) options.ellipsoid = parse_ellipsoid(arguments.ellipsoid);
+  options.latitude =
+      arguments.latitude == "geodetic" ? converters::Latitude::kGeodetic : converters::Latitude::kGeocentric;
+  const double unit = arguments.units == "ft" ? kFoot : 1.0;
+  options.scale = arguments.scale * unit;
+  options.offset = arguments.offset * unit;
+  if (!arguments.nodata.empty()) {
+    options.nodata = parse_number(arguments.nodata);
+    if (!options.nodata) {
+      throw globe::UsageError("--nodata", "'" + arguments.nodata + "' is not a number",
+                              "give a value such as -9999 or nan");
+    }
+  }
+  options.credits = arguments.credits;
+  options.memory_bytes = static_cast<std::size_t>(arguments.memory_mb) << 20;
+  options.threads = arguments.threads;
+  options.overwrite = arguments.overwrite;
+  options.program_version = version();
+  return options;
+}
+
+void convert(const Arguments& arguments) {
+  const converters::ConvertOptions options = options_from(arguments);
+  Progress progress(progress_style(arguments.quiet, arguments.progress == "json"));
+  const auto print = [&](const std::string& text) {
+    progress.clear();
+    std::fprintf(stderr, "globe: %s\n", text.c_str());
+  };
+  converters::ConvertListener listener;
+  if (!arguments.quiet) listener.note = print;
+  listener.warning = [&](const std::string& text) { print("warning: " + text); };
+  listener.progress = [&](const std::string& stage, double fraction) { progress.show(stage, fraction); };
+  converters::convert(options, listener);
+}
+
+}  // namespace
+
+void add_convert(CLI::App& program, int& exit_status) {
+  static_cast<void>(exit_status);
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("convert", "Make a planet of latitude-longitude maps");
+  command->add_option("heights", arguments->heights, "height map of the whole planet, 2:1");
+  command->add_option("--color", arguments->colors, "color map of the whole planet, 2:1")->expected(1, -1);
+  command->add_option("-o,--output", arguments->planet, "the planet folder to make")->required();
+  command
+      ->add_option("--level", arguments->level,
+                   "finest level of the heights (default: the map's own resolution)")
+      ->check(CLI::Range(0, kMaxConvertLevel));
+  command
+      ->add_option("--filter", arguments->filter,
+                   "default: area where the map is finer than the grid, else bilinear")
+      ->check(CLI::IsMember({"nearest", "bilinear", "bicubic", "area"}));
+  command->add_option("--ellipsoid", arguments->ellipsoid, "wgs84, moon, mars or A,F (F also 1/298.257)");
+  command->add_option("--latitude", arguments->latitude, "what the map's rows count")
+      ->check(CLI::IsMember({"geodetic", "geocentric"}));
+  command
+      ->add_option("--extent", arguments->extents,
+                   "W,S,E,N of the heights in degrees; again for the color map")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->delimiter('\0');
+  command->add_option("--registration", arguments->registrations, "of the heights; again for the color map")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(CLI::IsMember({"area", "point"}));
+  command->add_option("--scale", arguments->scale, "height = raw * scale + offset");
+  command->add_option("--offset", arguments->offset, "in the unit of --units");
+  command->add_option("--units", arguments->units, "of the heights")->check(CLI::IsMember({"m", "ft"}));
+  command->add_option("--nodata", arguments->nodata, "raw value that means no data");
+  command->add_option("--credit", arguments->credits, "a line for the planet's credits")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      ->add_option("--memory", arguments->memory_mb,
+                   "MB to use; what does not fit goes to disk (default: half)")
+      ->check(CLI::Range(1, 1 << 24));
+  command->add_option("--threads", arguments->threads, "default: all cores")->check(CLI::Range(1, 1024));
+  command->add_flag("--overwrite", arguments->overwrite, "replace an existing planet");
+  command->add_flag("--quiet", arguments->quiet, "warnings and errors only");
+  command->add_option("--progress", arguments->progress, "json: a line for each percent, on standard error")
+      ->check(CLI::IsMember({"json"}));
+  command->callback([arguments] { convert(*arguments); });
+}
+
+}  // namespace app

@@ -1,0 +1,209 @@
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/contact_sheet.h"
+#include "app/flight_stats.h"
+#include "app/frame_sink.h"
+#include "app/planet_argument.h"
+#include "app/point.h"
+#include "app/progress.h"
+#include "app/view_options.h"
+#include "globe/base/error.h"
+#include "globe/gl/context.h"
+#include "globe/gl/framebuffer.h"
+#include "globe/gl/timer_query.h"
+#include "globe/render/camera.h"
+#include "globe/render/globe_renderer.h"
+#include "globe/scene/flight_path.h"
+
+namespace app {
+namespace {
+
+namespace geo = globe::geo;
+namespace render = globe::render;
+
+constexpr double kOrbit = 20'000'000.0;  ///< metres above the target
+constexpr double kFinalHeight = 200.0;   ///< metres above ground where a flight ends unless --to says more
+constexpr double kClearance = 2.0;       ///< metres: never closer to the ground
+
+struct FlyOptions {
+  ViewOptions view;
+  std::string from = "orbit";
+  std::string to;
+  int frames = 300;
+  double fps = 30.0;
+  std::string stats;
+  std::string contact_sheet;
+  bool wait = false;
+};
+
+struct End {
+  geo::Geodetic place;
+  double above_ground = 0;
+};
+
+/// An end of the flight: ALT counts from the ellipsoid, or from the ground with --agl; without ALT `fallback`
+/// above ground.
+End parse_end(const std::string& text, bool agl, double fallback, const render::GlobeRenderer& renderer,
+              const geo::Ellipsoid& ellipsoid) {
+  const Point point = parse_point(text);
+  geo::Geodetic place = point.position;
+  if (!point.has_alt) return {place, fallback};
+  if (agl) return {place, std::max(place.h_m, kClearance)};
+  return {place,
+          std::max(renderer.height_above_ground(geo::ecef_from_geodetic(ellipsoid, place)), kClearance)};
+}
+
+/// Camera on the path: heights of its ends count from the ground under them, in between from the ground's
+/// height interpolated along, but never below kClearance above the ground under the camera.
+class Flight {
+ public:
+  Flight(const render::GlobeRenderer& renderer, const geo::Ellipsoid& ellipsoid, const End& from,
+         const End& to, const Look& look)
+      : renderer_(renderer),
+        ellipsoid_(ellipsoid),
+        path_(normal(from), from.above_ground, normal(to), to.above_ground, ellipsoid.mean_radius(),
+              look.heading_deg, look.pitch_deg),
+        from_ground_(ground_height(from.place)),
+        to_ground_(ground_height(to.place)) {}
+
+  render::Camera camera(double t, const ViewOptions& view, double aspect, geo::Geodetic& place) const {
+    const globe::scene::PathPoint point = path_.at(t);
+    place = geo::degrees_from_normal(point.u);
+    const double e = globe::scene::FlightPath::eased(t);
+    place.h_m = point.height_m + from_ground_ + (to_ground_ - from_ground_) * e;
+    const double above = renderer_.height_above_ground(geo::ecef_from_geodetic(ellipsoid_, place));
+    if (above < kClearance) place.h_m += kClearance - above;
+    return render::make_camera(ellipsoid_, place, point.heading_deg, point.pitch_deg, view.fov_deg, aspect);
+  }
+
+ private:
+  static glm::dvec3 normal(const End& end) {
+    return geo::normal_from_degrees(end.place.lat_deg, end.place.lon_deg);
+  }
+
+  double ground_height(geo::Geodetic place) const {
+    place.h_m = kFinalHeight;
+    return place.h_m - renderer_.height_above_ground(geo::ecef_from_geodetic(ellipsoid_, place));
+  }
+
+  const render::GlobeRenderer& renderer_;
+  geo::Ellipsoid ellipsoid_;
+  globe::scene::FlightPath path_;
+  double from_ground_, to_ground_;
+};
+
+std::string altitude_text(double metres) {
+  char text[32];
+  if (metres >= 1e6) {
+    std::snprintf(text, sizeof text, "%.0f km", metres / 1e3);
+  } else if (metres >= 1e4) {
+    std::snprintf(text, sizeof text, "%.1f km", metres / 1e3);
+  } else {
+    std::snprintf(text, sizeof text, "%.0f m", metres);
+  }
+  return text;
+}
+
+void refuse_existing(const std::string& path, bool overwrite) {
+  if (!path.empty() && !overwrite && std::filesystem::exists(path)) {
+    throw globe::Error(path, "the file exists", "give another name or --overwrite");
+  }
+}
+
+void run(const FlyOptions& options) {
+  const ViewOptions& view = options.view;
+  const Size size = parse_size(view.size);
+  if (options.frames < 1 || options.frames > 1'000'000) {
+    throw globe::UsageError("--frames " + std::to_string(options.frames), "not 1 to 1000000",
+                            "give a number in that range");
+  }
+  const render::RenderSettings settings = render_settings(view);
+  refuse_existing(options.stats, view.overwrite);
+  refuse_existing(options.contact_sheet, view.overwrite);
+  const auto surface = open_planet(view.planet);
+  const geo::Ellipsoid& ellipsoid = surface->ellipsoid();
+
+  const globe::gl::Context context(view.device);
+  render::GlobeRenderer renderer(surface, settings);
+  globe::gl::FramebufferFormat format;
+  format.samples = view.samples;
+  const globe::gl::Framebuffer target(size.width, size.height, format);
+
+  Look look = view.look.empty() ? Look{0.0, 0.0} : parse_look(view.look);
+  const End to = parse_end(options.to, view.agl, kFinalHeight, renderer, ellipsoid);
+  const End from = options.from == "orbit"
+                       ? End{to.place, kOrbit * ellipsoid.mean_radius() / geo::kWgs84.mean_radius()}
+                       : parse_end(options.from, view.agl, kFinalHeight, renderer, ellipsoid);
+  const glm::dvec3 sun = sun_for(view, *surface, to.place.lon_deg);
+  const Flight flight(renderer, ellipsoid, from, to, look);
+
+  FrameSink sink({view.output, size.width, size.height, options.fps, view.overwrite});
+  std::optional<ContactSheet> sheet;
+  if (!options.contact_sheet.empty()) sheet.emplace(options.frames, size.width, size.height);
+  FlightStats stats(context.renderer(), context.version(), size.width, size.height, view.detail,
+                    surface->data_level());
+  Progress progress(progress_style(view.quiet || view.output == "-", false));
+
+  globe::gl::TimerQuery timer = globe::gl::TimerQuery::create();
+  const double aspect = static_cast<double>(size.width) / size.height;
+  for (int k = 0; k < options.frames; ++k) {
+    const double t = options.frames == 1 ? 1.0 : static_cast<double>(k) / (options.frames - 1);
+    geo::Geodetic place;
+    const render::Camera camera = flight.camera(t, view, aspect, place);
+    const auto begin = std::chrono::steady_clock::now();
+    timer.begin();
+    const render::FrameStats frame = renderer.draw(camera, sun, options.wait, target);
+    target.resolve();
+    timer.end();
+    glFinish();
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    const double above = renderer.height_above_ground(camera.position);
+    stats.add({k, place, above, took.count(), timer.wait_milliseconds(), frame});
+    const std::vector<std::uint8_t> rgba = target.read_rgba8();
+    sink.write(rgba);
+    if (sheet && sheet->wants(k)) sheet->add(k, rgba, altitude_text(above));
+    progress.show("flying", static_cast<double>(k + 1) / options.frames);
+  }
+  progress.clear();
+  sink.finish();
+  if (sheet) sheet->write(options.contact_sheet, view.overwrite);
+  if (!options.stats.empty()) stats.write(options.stats);
+  if (!view.quiet)
+    std::fputs(stats.table(renderer.gpu_bytes()).c_str(), view.output == "-" ? stderr : stdout);
+  if (!context.errors().empty())
+    throw globe::Error("OpenGL", context.errors().front(), "try --device software");
+}
+
+}  // namespace
+
+void add_fly(CLI::App& program) {
+  auto options = std::make_shared<FlyOptions>();
+  CLI::App* command = program.add_subcommand("fly", "A flight over a planet, frame by frame");
+  add_view_options(*command, options->view);
+  command->add_option("--from", options->from, "orbit (20,000 km above the target) or LAT,LON[,ALT]")
+      ->capture_default_str();
+  command->add_option("--to", options->to,
+                      "LAT,LON[,ALT]: the target (default: a scenic place); without ALT 200 m above ground");
+  command->add_option("--frames", options->frames, "number of frames")->capture_default_str();
+  command->add_option("--fps", options->fps, "frames a second of the film")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 1000.0));
+  command->add_option("--stats", options->stats, "JSON file for the figures of every frame");
+  command->add_option("--contact-sheet", options->contact_sheet, "PNG file for twelve frames at a glance");
+  command->add_flag("--wait", options->wait, "load each frame wholly: deterministic pictures");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace app

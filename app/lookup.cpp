@@ -1,0 +1,115 @@
+#include <GeographicLib/GeoCoords.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/point.h"
+#include "app/records.h"
+#include "globe/geo/ellipsoid.h"
+#include "globe/htm/trixel.h"
+#include "globe/planet/cell.h"
+
+namespace app {
+namespace {
+
+constexpr int kDefaultLevel = 20;
+
+struct Lookup {
+  std::vector<std::string> operands;
+  std::optional<int> level;
+  RecordOptions records;
+};
+
+/// All that one point is called.
+struct Place {
+  double lat_deg, lon_deg;
+  globe::htm::Trixel trixel;
+  globe::planet::Cell cell;
+  globe::geo::dvec3 ecef_m;
+};
+
+Place place_of(const Point& point, int level, const std::optional<int>& precision) {
+  const auto& at = point.position;
+  const auto u = globe::geo::normal_from_degrees(at.lat_deg, at.lon_deg);
+  const auto trixel = globe::htm::trixel_at(u, level);
+  return {shown(at.lat_deg, precision), shown_longitude(at.lon_deg, precision), trixel,
+          globe::planet::cell_from_trixel(trixel),
+          globe::geo::ecef_from_normal(globe::geo::kWgs84, u, at.h_m)};
+}
+
+/// UTM or UPS to the millimetre and MGRS to the metre.
+struct GridNames {
+  std::string utm, mgrs;
+};
+
+GridNames grid_names(const Point& point) {
+  const GeographicLib::GeoCoords coords(point.position.lat_deg, point.position.lon_deg);
+  return {coords.UTMUPSRepresentation(3), coords.MGRSRepresentation(0)};
+}
+
+std::string text_line(const Place& place, const std::optional<int>& precision) {
+  const auto& [d, level, i, j, half] = place.cell;
+  std::string line = number_text(place.lat_deg, precision) + ' ' + number_text(place.lon_deg, precision) +
+                     ' ' + std::to_string(level) + ' ' + std::to_string(place.trixel.id) + ' ' +
+                     globe::htm::name(place.trixel);
+  for (const int number : {d, i, j}) line += ' ' + std::to_string(number);
+  return line;
+}
+
+std::string csv_line(const Place& place, const GridNames& names, const std::optional<int>& precision) {
+  std::string line = text_line(place, precision);
+  std::replace(line.begin(), line.end(), ' ', ',');
+  for (int k = 0; k < 3; ++k) line += ',' + number_text(place.ecef_m[k], precision);
+  return line + ',' + names.utm + ',' + names.mgrs;
+}
+
+std::string json_line(const Place& place, const GridNames& names, const std::optional<int>& precision) {
+  nlohmann::ordered_json object;
+  object["lat"] = place.lat_deg;
+  object["lon"] = place.lon_deg;
+  object["level"] = place.cell.level;
+  object["id"] = place.trixel.id;
+  object["name"] = globe::htm::name(place.trixel);
+  object["diamond"] = place.cell.d;
+  object["i"] = place.cell.i;
+  object["j"] = place.cell.j;
+  object["ecef_m"] = {shown(place.ecef_m.x, precision), shown(place.ecef_m.y, precision),
+                      shown(place.ecef_m.z, precision)};
+  object["utm"] = names.utm;
+  object["mgrs"] = names.mgrs;
+  return object.dump();
+}
+
+int run(Lookup lookup) {
+  // A PLANET's own level and ellipsoid and the height at the point enter here.
+  take_planet(lookup.operands);
+  const RecordOptions& records = lookup.records;
+  const auto answer = [&](const std::string& record) {
+    const Point point = parse_point(record);
+    const Place place = place_of(point, lookup.level.value_or(kDefaultLevel), records.precision);
+    if (records.json) return json_line(place, grid_names(point), records.precision);
+    if (records.csv) return csv_line(place, grid_names(point), records.precision);
+    return text_line(place, records.precision);
+  };
+  return answer_records(lookup.operands, records,
+                        "lat,lon,level,id,name,diamond,i,j,ecef_x_m,ecef_y_m,ecef_z_m,utm,mgrs", answer);
+}
+
+}  // namespace
+
+void add_lookup(CLI::App& program, int& exit_status) {
+  auto lookup = std::make_shared<Lookup>();
+  CLI::App* command = program.add_subcommand("lookup", "name the trixel and the grid cell of each point");
+  command->add_option(
+      "POINT", lookup->operands,
+      "[PLANET] and points, \"LAT LON\" or LAT,LON each; without points: one a line from standard input");
+  command->add_option("--level", lookup->level, "HTM level (default: the planet's, else 20)")
+      ->check(CLI::Range(0, globe::htm::kMaxLevel));
+  add_record_options(*command, lookup->records);
+  command->footer(
+      "Text: LAT LON LEVEL ID NAME DIAMOND I J.  Example: globe lookup --level 14 \"50.0875 14.4213\"");
+  command->callback([lookup, &exit_status] { exit_status = run(*lookup); });
+}
+
+}  // namespace app

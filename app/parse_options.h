@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "converters/raster_source.h"
+#include "globe/geo/ellipsoid.h"
+
+namespace app {
+
+/// A whole word as a number, whatever the locale; nothing when it is not one.
+std::optional<double> parse_number(const std::string& text);
+
+/// "wgs84", "moon", "mars" or "A,F" (F also as 1/298.257). Throws globe::UsageError.
+globe::geo::Ellipsoid parse_ellipsoid(const std::string& text);
+
+/// "W,S,E,N" in degrees. Throws globe::UsageError.
+converters::Extent parse_extent(const std::string& text);
+
+}  // namespace app

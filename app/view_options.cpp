@@ -1,0 +1,115 @@
+#include "app/view_options.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "globe/base/error.h"
+#include "globe/geo/sun.h"
+
+namespace app {
+namespace {
+
+using globe::UsageError;
+
+std::optional<double> to_double(std::string_view text) {
+  double value = 0;
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<int> to_int(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+glm::vec3 parse_color(const std::string& text) {
+  unsigned value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  if (text.size() != 6 || error != std::errc() || end != text.data() + text.size()) {
+    throw UsageError("--background " + text, "not a colour",
+                     "write six hexadecimal digits RRGGBB, such as ff00ff");
+  }
+  return glm::vec3(static_cast<float>(value >> 16 & 255u), static_cast<float>(value >> 8 & 255u),
+                   static_cast<float>(value & 255u)) /
+         255.0f;
+}
+
+}  // namespace
+
+void add_view_options(CLI::App& command, ViewOptions& options) {
+  command.add_option("PLANET", options.planet, "folder made by globe convert, or procedural[:SEED]")
+      ->required();
+  command.add_option("-o,--output", options.output, "file to write")->required();
+  command.add_flag("--agl", options.agl, "altitudes count from the ground");
+  command.add_option("--look", options.look, "HEADING,PITCH in degrees; -90 down, 0 level");
+  command.add_option("--size", options.size, "WxH in pixels")->capture_default_str();
+  command.add_option("--fov", options.fov_deg, "vertical field of view, degrees")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 170.0));
+  command.add_option("--time", options.time,
+                     "UTC date and time of the sun, ISO 8601 (default: 10:00 local solar time, 21 March)");
+  command.add_option("--detail", options.detail, "side of the hexagons in cells, 16 to 1024")
+      ->capture_default_str();
+  command.add_option("--samples", options.samples, "samples a pixel")
+      ->capture_default_str()
+      ->check(CLI::IsMember({1, 4}));
+  command.add_option("--background", options.background, "RRGGBB: nothing but ground before this colour");
+  command.add_flag("--wireframe", options.wireframe, "draw the triangles");
+  command.add_option("--show", options.show, "levels, patches, normals or depth")
+      ->check(CLI::IsMember({"levels", "patches", "normals", "depth"}));
+  command.add_flag("--overwrite", options.overwrite, "replace existing output");
+  command.add_flag("--quiet", options.quiet, "warnings and errors only");
+  command.add_option("--device", options.device, "auto, software, or the number of an EGL device")
+      ->capture_default_str();
+}
+
+Look parse_look(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  const auto heading = to_double(std::string_view(text).substr(0, comma));
+  const auto pitch =
+      comma == std::string::npos ? std::nullopt : to_double(std::string_view(text).substr(comma + 1));
+  if (!heading || !pitch || std::abs(*pitch) > 90.0) {
+    throw UsageError("--look " + text, "not a heading and a pitch in [-90, 90]",
+                     "write HEADING,PITCH in degrees, such as 45,-10");
+  }
+  return {*heading, *pitch};
+}
+
+Size parse_size(const std::string& text) {
+  const std::size_t x = text.find('x');
+  const auto width = to_int(std::string_view(text).substr(0, x));
+  const auto height = x == std::string::npos ? std::nullopt : to_int(std::string_view(text).substr(x + 1));
+  if (!width || !height || *width < 16 || *height < 16 || *width > 16384 || *height > 16384) {
+    throw UsageError("--size " + text, "not a picture size of 16 to 16384 pixels a side",
+                     "write WxH, such as 1280x720");
+  }
+  return {*width, *height};
+}
+
+globe::render::RenderSettings render_settings(const ViewOptions& options) {
+  globe::render::RenderSettings settings;
+  settings.clipmap = globe::clipmap::Settings::for_detail(options.detail);
+  settings.wireframe = options.wireframe;
+  if (options.show == "levels") settings.show = globe::render::Show::kLevels;
+  if (options.show == "patches") settings.show = globe::render::Show::kPatches;
+  if (options.show == "normals") settings.show = globe::render::Show::kNormals;
+  if (!options.background.empty()) settings.background = parse_color(options.background);
+  return settings;
+}
+
+glm::dvec3 sun_for(const ViewOptions& options, const globe::planet::Surface& surface, double target_lon_deg) {
+  if (options.time.empty()) return globe::geo::morning_sun(target_lon_deg);
+  const std::string& body = surface.info().body;
+  if (body == "moon" || body == "mars") {
+    throw UsageError("--time " + options.time,
+                     "the sun's place is computed for the Earth only, this planet is the " + body,
+                     "leave --time out");
+  }
+  return globe::geo::sun_direction(options.time);
+}
+
+}  // namespace app

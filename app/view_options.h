@@ -1,0 +1,56 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+
+#include "globe/geo/ellipsoid.h"
+#include "globe/planet/surface.h"
+#include "globe/render/globe_renderer.h"
+
+namespace app {
+
+/// The options that `shot` and `fly` share (COMMANDS.md, Pictures).
+struct ViewOptions {
+  std::string planet;
+  std::string output;
+  std::string look;
+  std::string size = "1280x720";
+  double fov_deg = 60.0;
+  std::string time;
+  int detail = 64;
+  int samples = 1;
+  std::string background;
+  bool wireframe = false;
+  std::string show;
+  bool agl = false;
+  bool overwrite = false;
+  bool quiet = false;
+  std::string device = "auto";
+};
+
+void add_view_options(CLI::App& command, ViewOptions& options);
+
+/// Heading and pitch, degrees.
+struct Look {
+  double heading_deg = 0;
+  double pitch_deg = 0;
+};
+/// "HEADING,PITCH". Throws UsageError unless both are numbers and the pitch lies in [-90, 90].
+Look parse_look(const std::string& text);
+
+struct Size {
+  int width = 0;
+  int height = 0;
+};
+/// "WxH", 16 to 16384 a side. Throws UsageError.
+Size parse_size(const std::string& text);
+
+/// Settings of a renderer from the options. Throws UsageError.
+globe::render::RenderSettings render_settings(const ViewOptions& options);
+
+/// Toward the sun at --time, or at 10:00 local solar time at the target.
+glm::dvec3 sun_for(const ViewOptions& options, const globe::planet::Surface& surface, double target_lon_deg);
+
+}  // namespace app

@@ -1,0 +1,73 @@
+#include "converters/buffer.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "globe/base/error.h"
+
+namespace converters {
+namespace {
+
+std::byte* map_nameless_file(std::size_t bytes, const std::filesystem::path& folder) {
+  const auto refuse = [&](const char* why) -> globe::Error {
+    return {folder.string(),
+            std::string("no room for ") + std::to_string(bytes >> 20) + " MB of scratch (" + why + ")",
+            "free some disk, or give more --memory"};
+  };
+  std::string name = (folder / "scratch-XXXXXX").string();
+  const int file = ::mkstemp(name.data());
+  if (file < 0) throw refuse(std::strerror(errno));
+  ::unlink(name.c_str());
+  // Allocated now: writing to a hole of a full disk through a mapping would end the program.
+  const int failure = ::posix_fallocate(file, 0, static_cast<off_t>(bytes));
+  void* data =
+      failure != 0 ? MAP_FAILED : ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  ::close(file);
+  if (failure != 0) throw refuse(std::strerror(failure));
+  if (data == MAP_FAILED) throw refuse(std::strerror(errno));
+  return static_cast<std::byte*>(data);
+}
+
+}  // namespace
+
+Buffer::Buffer(std::size_t bytes, MemoryBudget& budget) : bytes_(bytes) {
+  if (bytes == 0) return;
+  if (bytes <= budget.bytes_left) {
+    void* data = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (data != MAP_FAILED) {
+      data_ = static_cast<std::byte*>(data);
+      budget_ = &budget;
+      budget.bytes_left -= bytes;
+      return;
+    }
+  }
+  data_ = map_nameless_file(bytes, budget.scratch_folder);
+}
+
+Buffer::~Buffer() {
+  if (data_ != nullptr) ::munmap(data_, bytes_);
+  if (budget_ != nullptr) budget_->bytes_left += bytes_;
+}
+
+Buffer::Buffer(Buffer&& other) noexcept
+    : data_(std::exchange(other.data_, nullptr)),
+      bytes_(std::exchange(other.bytes_, 0)),
+      budget_(std::exchange(other.budget_, nullptr)) {}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+  std::swap(data_, other.data_);
+  std::swap(bytes_, other.bytes_);
+  std::swap(budget_, other.budget_);
+  return *this;
+}
+
+void Buffer::drop_pages() const {
+  if (data_ != nullptr && budget_ == nullptr) ::madvise(data_, bytes_, MADV_DONTNEED);
+}
+
+}  // namespace converters

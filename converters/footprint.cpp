@@ -1,0 +1,120 @@
+#include "converters/footprint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace converters {
+
+using globe::planet::dvec3;
+using globe::planet::Node;
+using globe::planet::node_direction;
+
+namespace {
+
+/// Neighbours of a node in order around it; two that follow one another make a trixel with it.
+constexpr std::array<globe::planet::ivec2, 6> kAround{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
+
+/// Name with the smallest diamond: all names of a vertex lead to the same arithmetic.
+Node canonical(const Node& node) {
+  const globe::planet::Names all = globe::planet::names(node);
+  return *std::min_element(all.node.begin(), all.node.begin() + all.count, [](const Node& a, const Node& b) {
+    return std::array{a.d, a.i, a.j} < std::array{b.d, b.i, b.j};
+  });
+}
+
+/// The four neighbours of an octahedron corner, in order around it: those along the axes it does not lie on.
+int corner_ring(const Node& node, std::array<dvec3, 6>& ring) {
+  const dvec3 u = node_direction(node);
+  std::vector<dvec3> found;
+  for (const auto& step : kAround) {
+    const dvec3 v =
+        node_direction(globe::planet::fold({node.d, node.level, node.i + step.x, node.j + step.y}));
+    if (std::find(found.begin(), found.end(), v) == found.end()) found.push_back(v);
+  }
+  const dvec3 first = found[0] - glm::dot(found[0], u) * u;
+  const dvec3 second = glm::cross(u, first);
+  const auto angle = [&](const dvec3& v) { return std::atan2(glm::dot(v, second), glm::dot(v, first)); };
+  std::sort(found.begin(), found.end(), [&](const dvec3& a, const dvec3& b) { return angle(a) < angle(b); });
+  std::copy(found.begin(), found.end(), ring.begin());
+  return static_cast<int>(found.size());
+}
+
+int ring_of(const Node& node, std::array<dvec3, 6>& ring) {
+  const int n = globe::planet::nodes_per_side(node.level);
+  if ((node.i == 0 || node.i == n) && (node.j == 0 || node.j == n)) return corner_ring(node, ring);
+  for (std::size_t k = 0; k < kAround.size(); ++k) {
+    ring[k] = node_direction(
+        globe::planet::fold({node.d, node.level, node.i + kAround[k].x, node.j + kAround[k].y}));
+  }
+  return static_cast<int>(kAround.size());
+}
+
+}  // namespace
+
+double Footprint::min_x() const {
+  return std::min_element(corner.begin(), corner.begin() + count, [](auto& a, auto& b) { return a.x < b.x; })
+      ->x;
+}
+double Footprint::max_x() const {
+  return std::max_element(corner.begin(), corner.begin() + count, [](auto& a, auto& b) { return a.x < b.x; })
+      ->x;
+}
+double Footprint::min_y() const {
+  return std::min_element(corner.begin(), corner.begin() + count, [](auto& a, auto& b) { return a.y < b.y; })
+      ->y;
+}
+double Footprint::max_y() const {
+  return std::max_element(corner.begin(), corner.begin() + count, [](auto& a, auto& b) { return a.y < b.y; })
+      ->y;
+}
+
+dvec3 trixel_centre(const dvec3& a, const dvec3& b, const dvec3& c) { return glm::normalize(a + b + c); }
+
+Footprint make_footprint(const MapGeometry& geometry, const SamplePlace& node,
+                         const std::array<dvec3, 6>& centres, int count) {
+  std::array<Footprint::Corner, 6> corner{};  // relative to the node
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    const SamplePlace place = place_of(geometry, centres[k]);
+    int columns = place.x.whole - node.x.whole;
+    if (columns > geometry.period / 2) columns -= geometry.period;
+    if (columns < -geometry.period / 2) columns += geometry.period;
+    corner[k] = {columns + (place.x.fraction - node.x.fraction),
+                 (place.y.whole - node.y.whole) + (place.y.fraction - node.y.fraction)};
+  }
+  Footprint footprint;
+  footprint.count = count;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    const Footprint::Corner& opposite =
+        corner[(k + static_cast<std::size_t>(count / 2)) % static_cast<std::size_t>(count)];
+    footprint.corner[k] = {node.x.fraction + 0.5 * (corner[k].x - opposite.x),
+                           node.y.whole + (node.y.fraction + 0.5 * (corner[k].y - opposite.y))};
+  }
+  return footprint;
+}
+
+Footprint footprint_of(const MapGeometry& geometry, const Node& node) {
+  const Node name = canonical(node);
+  const dvec3 u = node_direction(name);
+  std::array<dvec3, 6> ring{};
+  const int count = ring_of(name, ring);
+  std::array<dvec3, 6> centres{};
+  for (int k = 0; k < count; ++k) {
+    centres[static_cast<std::size_t>(k)] =
+        trixel_centre(u, ring[static_cast<std::size_t>(k)], ring[static_cast<std::size_t>((k + 1) % count)]);
+  }
+  return make_footprint(geometry, place_of(geometry, u), centres, count);
+}
+
+double cap_rim(const MapGeometry& geometry, int level, bool north) {
+  const int n = globe::planet::nodes_per_side(level);
+  const int pole = north ? 0 : n;
+  const int step = north ? 1 : -1;
+  const SamplePlace rim = place_of(geometry, trixel_centre(node_direction({0, level, pole, pole}),
+                                                           node_direction({0, level, pole + step, pole}),
+                                                           node_direction({0, level, pole, pole + step})));
+  return rim.y.whole + rim.y.fraction;
+}
+
+}  // namespace converters

@@ -1,0 +1,209 @@
+#include "converters/interpolate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace converters {
+namespace {
+
+constexpr std::size_t kMaxStride = 4;  ///< three channels and a weight
+using Sum = std::array<double, kMaxStride>;
+
+/// Below this share of the whole weight nothing valid counts as in reach: it would be rounding noise.
+constexpr double kLeastWeight = 1e-9;
+
+bool weighted(const Window& window, int channels) { return window.stride > channels; }
+
+/// Divides by the weight of what was valid (out of `whole`).
+bool finish(const Window& window, int channels, const Sum& sum, double whole, float* out) {
+  const double weight = weighted(window, channels) ? sum[static_cast<std::size_t>(channels)] : whole;
+  if (!(weight > kLeastWeight * whole)) return false;
+  for (int c = 0; c < channels; ++c) out[c] = static_cast<float>(sum[static_cast<std::size_t>(c)] / weight);
+  return true;
+}
+
+void add(const float* sample, int stride, double weight, Sum& sum) {
+  for (int c = 0; c < stride; ++c)
+    sum[static_cast<std::size_t>(c)] += weight * static_cast<double>(sample[c]);
+}
+
+std::array<double, 4> catmull_rom(double t) {
+  const double t2 = t * t;
+  const double t3 = t2 * t;
+  return {0.5 * (-t3 + 2.0 * t2 - t), 0.5 * (3.0 * t3 - 5.0 * t2 + 2.0), 0.5 * (-3.0 * t3 + 4.0 * t2 + t),
+          0.5 * (t3 - t2)};
+}
+
+/// Adds `weight` times the integral from a to b (columns of the window) of a row joined linearly.
+void integrate(const Window& window, int y, double a, double b, double weight, Sum& sum) {
+  const int stride = window.stride;
+  const int first = static_cast<int>(std::floor(a));
+  const int last = static_cast<int>(std::floor(b));
+  const float* row = window.at(first, y);
+  const auto piece = [&](const float* sample, double from, double to) {
+    const double middle = 0.5 * (from + to);
+    add(sample, stride, weight * (to - from) * (1.0 - middle), sum);
+    add(sample + stride, stride, weight * (to - from) * middle, sum);
+  };
+  if (first == last) return piece(row, a - first, b - first);
+  const float* end = row + (last - first) * stride;
+  piece(row, a - first, 1.0);
+  if (last - first > 1) {
+    Sum whole{};
+    for (const float* sample = row + 2 * stride; sample < end; sample += stride)
+      add(sample, stride, 1.0, whole);
+    add(row + stride, stride, 0.5, whole);
+    add(end, stride, 0.5, whole);
+    for (std::size_t c = 0; c < kMaxStride; ++c) sum[c] += weight * whole[c];
+  }
+  if (b > last) piece(end, 0.0, b - last);
+}
+
+/// The columns where a scan line enters and leaves a footprint, in order; at most six.
+int crossings(const Footprint& footprint, double y, std::array<double, 6>& out) {
+  int count = 0;
+  for (int k = 0; k < footprint.count; ++k) {
+    Footprint::Corner a = footprint.corner[static_cast<std::size_t>(k)];
+    Footprint::Corner b = footprint.corner[static_cast<std::size_t>((k + 1) % footprint.count)];
+    if (b.y < a.y) std::swap(a, b);
+    if (y < a.y || y >= b.y) continue;
+    const double x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+    int at = count++;
+    for (; at > 0 && out[static_cast<std::size_t>(at - 1)] > x; --at)
+      out[static_cast<std::size_t>(at)] = out[static_cast<std::size_t>(at - 1)];
+    out[static_cast<std::size_t>(at)] = x;
+  }
+  return count;
+}
+
+/// Lines of constant latitude across a range of rows: symmetric about its middle, no farther apart than rows.
+struct Lines {
+  double first;
+  double step;
+  int count;
+
+  Lines(double top, double bottom) {
+    constexpr int kLeast = 8;
+    count = std::max(kLeast, static_cast<int>(std::ceil(bottom - top)));
+    step = (bottom - top) / count;
+    first = top + 0.5 * step;
+  }
+  double y(int line) const { return first + line * step; }
+};
+
+/// Area of a strip along a row for one column, up to a constant factor; 0 beyond the poles.
+double strip_weight(const MapGeometry& geometry, double y) {
+  return std::cos(latitude_of(geometry, y) * std::numbers::pi / 180.0);
+}
+
+/// Adds the strip along y between two columns.
+void add_strip(const Window& window, double y, double a, double b, double weight, Sum& sum) {
+  const int row = static_cast<int>(std::floor(y));
+  const double below = y - row;
+  integrate(window, row, a, b, weight * (1.0 - below), sum);
+  if (below > 0.0) integrate(window, row + 1, a, b, weight * below, sum);
+}
+
+}  // namespace
+
+bool nearest(const Window& window, int channels, const SamplePlace& place, float* out) {
+  const float* sample = window.at(place.x.whole + (place.x.fraction >= 0.5 ? 1 : 0),
+                                  place.y.whole + (place.y.fraction >= 0.5 ? 1 : 0));
+  if (weighted(window, channels) && sample[channels] == 0.0F) return false;
+  std::copy_n(sample, channels, out);
+  return true;
+}
+
+bool bilinear(const Window& window, int channels, const SamplePlace& place, float* out) {
+  const double fx = place.x.fraction;
+  const double fy = place.y.fraction;
+  const float* top = window.at(place.x.whole, place.y.whole);
+  const float* bottom = window.at(place.x.whole, place.y.whole + 1);
+  Sum sum{};
+  add(top, window.stride, (1.0 - fx) * (1.0 - fy), sum);
+  add(top + window.stride, window.stride, fx * (1.0 - fy), sum);
+  add(bottom, window.stride, (1.0 - fx) * fy, sum);
+  add(bottom + window.stride, window.stride, fx * fy, sum);
+  return finish(window, channels, sum, 1.0, out);
+}
+
+bool bicubic(const Window& window, int channels, const SamplePlace& place, float* out) {
+  const std::array<double, 4> wx = catmull_rom(place.x.fraction);
+  const std::array<double, 4> wy = catmull_rom(place.y.fraction);
+  const int stride = window.stride;
+  Sum sum{};
+  std::array<float, kMaxStride> low;
+  std::array<float, kMaxStride> high;
+  low.fill(HUGE_VALF);
+  high.fill(-HUGE_VALF);
+  for (int b = 0; b < 4; ++b) {
+    const float* sample = window.at(place.x.whole - 1, place.y.whole - 1 + b);
+    for (int a = 0; a < 4; ++a, sample += stride) {
+      // Negative weights and missing samples do not go together.
+      if (weighted(window, channels) && sample[channels] == 0.0F)
+        return bilinear(window, channels, place, out);
+      add(sample, stride, wx[static_cast<std::size_t>(a)] * wy[static_cast<std::size_t>(b)], sum);
+      for (int c = 0; c < channels; ++c) {
+        low[static_cast<std::size_t>(c)] = std::min(low[static_cast<std::size_t>(c)], sample[c]);
+        high[static_cast<std::size_t>(c)] = std::max(high[static_cast<std::size_t>(c)], sample[c]);
+      }
+    }
+  }
+  for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
+    out[c] = std::clamp(static_cast<float>(sum[c]), low[c], high[c]);
+  return true;
+}
+
+bool footprint_mean(const Window& window, int channels, const MapGeometry& geometry,
+                    const Footprint& footprint, const SamplePlace& place, float* out) {
+  Sum sum{};
+  double whole = 0;
+  const Lines lines(footprint.min_y(), footprint.max_y());
+  for (int line = 0; line < lines.count; ++line) {
+    const double y = std::clamp(lines.y(line), -0.5, geometry.height - 0.5);
+    const double weight = strip_weight(geometry, y);
+    std::array<double, 6> x{};
+    const int count = crossings(footprint, y, x);
+    for (std::size_t k = 0; k + 1 < static_cast<std::size_t>(count); k += 2) {
+      if (x[k + 1] <= x[k]) continue;
+      add_strip(window, y, place.x.whole + x[k], place.x.whole + x[k + 1], weight, sum);
+      whole += weight * (x[k + 1] - x[k]);
+    }
+  }
+  return whole > 0.0 ? finish(window, channels, sum, whole, out) : bilinear(window, channels, place, out);
+}
+
+bool cap_mean(const SourceMap& map, double rim, bool north, float* out) {
+  const MapGeometry& geometry = map.geometry();
+  const Lines lines(north ? -0.5 : rim, north ? rim : geometry.height - 0.5);
+  Sum sum{};
+  double whole = 0;
+  Window window;
+  window.width = geometry.period + 1;  // the first column again, to close the circle
+  window.height = 2;
+  for (int line = 0; line < lines.count; ++line) {
+    const double y = lines.y(line);
+    window.y0 = static_cast<int>(std::floor(y));
+    map.read(window);
+    const double weight = strip_weight(geometry, y);
+    add_strip(window, y, 0.0, geometry.period, weight, sum);
+    whole += weight * geometry.period;
+  }
+  return whole > 0.0 ? finish(window, map.channels(), sum, whole, out)
+                     : row_mean(map, north ? 0 : geometry.height - 1, out);
+}
+
+bool row_mean(const SourceMap& map, int y, float* out) {
+  Window window;
+  window.y0 = y;
+  window.width = map.geometry().period;
+  window.height = 1;
+  map.read(window);
+  Sum sum{};
+  for (int x = 0; x < window.width; ++x) add(window.at(x, y), window.stride, 1.0, sum);
+  return finish(window, map.channels(), sum, window.width, out);
+}
+
+}  // namespace converters

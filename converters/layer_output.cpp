@@ -1,0 +1,124 @@
+#include "converters/layer_output.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <string>
+
+#include "converters/pyramid.h"
+#include "globe/planet/layer_file.h"
+
+namespace converters {
+namespace {
+
+using globe::planet::kDiamonds;
+
+/// The finest blocks of "height_range" are 8 x 8 cells: two numbers a block make the layer small beside the
+/// heights.
+constexpr int kRangeLevelsAbove = 3;
+
+void write_file(const LayerOutput& layer, int d, const std::filesystem::path& path,
+                const std::function<void(int rows)>& written) {
+  const globe::planet::StoredLayer& stored = layer.stored;
+  globe::planet::LayerFileWriter writer(path, stored.stored_level, stored.info.channels, stored.info.storage,
+                                        kTileSize);
+  for (const NodeGrid<float>& grid : layer.values) {
+    writer.write_level(grid.diamond(d), written);
+    grid.drop_pages();
+  }
+  for (const NodeGrid<std::uint8_t>& grid : layer.bytes) {
+    writer.write_level(grid.diamond(d), written);
+    grid.drop_pages();
+  }
+  writer.finish();
+}
+
+/// Samples of a pyramid, to tell how far writing has come.
+double samples_of(const globe::planet::StoredLayer& layer) {
+  double samples = 0;
+  for (int level = 0; level <= layer.stored_level; ++level) {
+    const double side = globe::planet::nodes_per_side(level) + 1;
+    samples += kDiamonds * side * side * layer.info.channels;
+  }
+  return samples;
+}
+
+}  // namespace
+
+std::vector<LayerOutput> height_layers(NodeGrid<float> heights, MemoryBudget& budget) {
+  const int level = heights.level();
+  const Range all = range(heights);
+  std::vector<LayerOutput> layers(3);
+  layers[0].stored = {{"height", level, 1, "float32", all.min, all.max}, level, {}};
+  layers[1].stored = {{"relief", level, 1, "float32", all.min, all.max}, level - 1, {}};
+  const int range_level = std::max(0, level - kRangeLevelsAbove);
+  layers[2].stored = {{"height_range", range_level, 2, "float32", all.min, all.max}, range_level, {}};
+
+  std::vector<NodeGrid<float>>& ranges = layers[2].values;
+  ranges.emplace_back(range_level, 2, budget);
+  range_of_heights(heights, ranges.back());
+  for (int k = range_level - 1; k >= 0; --k) {
+    ranges.emplace_back(k, 2, budget);
+    range_of_ranges(ranges[ranges.size() - 2], ranges.back());
+  }
+  std::vector<NodeGrid<float>>& height = layers[0].values;
+  std::vector<NodeGrid<float>>& relief = layers[1].values;
+  height.push_back(std::move(heights));
+  for (int k = level - 1; k >= 0; --k) {
+    relief.emplace_back(k, 1, budget);
+    filter(relief.size() > 1 ? relief[relief.size() - 2] : height.front(), relief.back());
+    height.emplace_back(k, 1, budget);
+    subsample(height[height.size() - 2], height.back());
+    height.back().drop_pages();
+  }
+  return layers;
+}
+
+LayerOutput color_layer(NodeGrid<std::uint8_t> colors, MemoryBudget& budget) {
+  const int level = colors.level();
+  const int channels = colors.channels();
+  LayerOutput layer;
+  layer.stored = {{"color", level, channels, "uint8", 0.0, 1.0}, level, {}};
+  layer.bytes.push_back(std::move(colors));
+  // The chain of levels stays in linear light, so that rounding to bytes does not add up.
+  NodeGrid<float> fine(level, channels, budget);
+  decode_colors(layer.bytes.front(), fine);
+  for (int k = level - 1; k >= 0; --k) {
+    NodeGrid<float> coarse(k, channels, budget);
+    filter(fine, coarse);
+    layer.bytes.emplace_back(k, channels, budget);
+    encode_colors(coarse, layer.bytes.back());
+    fine = std::move(coarse);
+  }
+  return layer;
+}
+
+std::vector<globe::planet::StoredLayer> write_layers(const std::vector<LayerOutput>& layers,
+                                                     const std::filesystem::path& folder,
+                                                     const std::function<void(double)>& progress) {
+  std::vector<globe::planet::StoredLayer> stored;
+  double all_samples = 0;
+  for (const LayerOutput& layer : layers) {
+    stored.push_back(layer.stored);
+    stored.back().files.resize(layer.stored.stored_level < 0 ? 0 : kDiamonds);
+    all_samples += samples_of(layer.stored);
+  }
+  std::atomic<double> done = 0;
+  tbb::parallel_for(0, static_cast<int>(layers.size()) * kDiamonds, 1, [&](int task) {
+    const auto index = static_cast<std::size_t>(task / kDiamonds);
+    const auto d = static_cast<std::size_t>(task % kDiamonds);
+    const globe::planet::StoredLayer& layer = layers[index].stored;
+    if (layer.stored_level < 0) return;
+    const std::filesystem::path path = folder / (layer.info.name + "_" + std::to_string(d) + ".tif");
+    const double row = (double(globe::planet::nodes_per_side(layer.stored_level)) + 1) * layer.info.channels;
+    write_file(layers[index], static_cast<int>(d), path, [&](int rows) {
+      done = done + row * rows;
+      progress(std::min(1.0, done / all_samples));
+    });
+    stored[index].files[d] = globe::planet::describe_file(path);
+  });
+  return stored;
+}
+
+}  // namespace converters

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "globe/planet/grid.h"
+
+namespace converters {
+
+/// Geodetic normals of a square block of nodes, at the cost of one halving a node; bit-equal to
+/// globe::planet::node_direction.
+class NodeBlock {
+ public:
+  /// Nodes i0 .. i0 + side, j0 .. j0 + side of diamond d; side is a power of two, i0 and j0 are multiples of
+  /// it.
+  NodeBlock(int d, int level, int i0, int j0, int side);
+
+  const globe::planet::dvec3& at(int i, int j) const {
+    return directions_[static_cast<std::size_t>((j - j0_) * (side_ + 1) + (i - i0_))];
+  }
+
+ private:
+  int i0_, j0_, side_;
+  std::vector<globe::planet::dvec3> directions_;
+};
+
+}  // namespace converters

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "converters/node_grid.h"
+
+namespace converters {
+
+/// The next coarser level, every second sample: a coarse sample is a fine sample.
+void subsample(const NodeGrid<float>& fine, NodeGrid<float>& coarse);
+
+/// The next coarser level, filtered: 1/4 of the node itself, 1/8 of each of its six neighbours, which is the
+/// hat function of the coarse lattice; at the six octahedron corners 1/3 and 1/6 of each of four. Nodes that
+/// diamonds share get equal bits.
+void filter(const NodeGrid<float>& fine, NodeGrid<float>& coarse);
+
+/// Lowest and highest of the fine samples in each cell of a coarser level, borders included. Nodes i = n or j
+/// = n, which are no cell's first corner, repeat the last cell.
+void range_of_heights(const NodeGrid<float>& heights, NodeGrid<float>& ranges);
+
+/// The same for the next coarser level of ranges.
+void range_of_ranges(const NodeGrid<float>& fine, NodeGrid<float>& coarse);
+
+/// Linear light of sRGB bytes, and back.
+void decode_colors(const NodeGrid<std::uint8_t>& bytes, NodeGrid<float>& linear);
+void encode_colors(const NodeGrid<float>& linear, NodeGrid<std::uint8_t>& bytes);
+
+struct Range {
+  double min, max;
+};
+Range range(const NodeGrid<float>& grid);
+
+}  // namespace converters

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "converters/map_geometry.h"
+
+namespace converters {
+
+/// Values for the voids of a map, made from the valid samples around them: averages over ever larger blocks,
+/// the smallest block that holds anything valid wins, interpolated bilinearly. Every value is a mean of valid
+/// samples with positive weights, so it stays within their range.
+///
+/// Blocks are single samples up to 4096 columns; larger maps start from means over blocks of them.
+class VoidFill {
+ public:
+  VoidFill(const MapGeometry& geometry, int channels);
+
+  /// Adds one valid sample of the map.
+  void add(int x, int y, const float* value);
+
+  /// Closes the gaps, after the last add. At least one sample must have come.
+  void finish();
+
+  void value(const SamplePlace& place, float* out) const;
+
+ private:
+  struct Grid {
+    int width, height;
+    std::vector<float> values;  ///< channels, then weight, for each block
+
+    float* at(int x, int y, int stride);
+    const float* at(int x, int y, int stride) const;
+  };
+  Grid coarser(const Grid& fine) const;
+  void fill_from(const Grid& coarse, Grid& fine) const;
+  void interpolate(const Grid& grid, double x, double y, float* out) const;
+
+  int channels_;
+  int stride_;
+  int factor_;
+  Grid grid_;
+};
+
+}  // namespace converters

@@ -1,0 +1,169 @@
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "tests/cli/spawn.h"
+
+namespace {
+
+using cli::Result;
+using tests::TemporaryFolder;
+
+void write_map(const std::filesystem::path& path, int width, int height) {
+  std::vector<float> samples;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) samples.push_back(static_cast<float>((x * 37 + y * 91) % 1000));
+  }
+  const auto output = OIIO::ImageOutput::create(path.string());
+  ASSERT_TRUE(output &&
+              output->open(path.string(), OIIO::ImageSpec(width, height, 1, OIIO::TypeDesc::FLOAT)));
+  ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, samples.data()) && output->close());
+}
+
+/// One line for people: "globe: WHAT: WHY; WHAT TO DO".
+void expect_refusal(const Result& result, int status, const std::string& part) {
+  EXPECT_EQ(result.status, status) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err.rfind("globe: ", 0), 0U) << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+}
+
+TEST(ConvertCommand, MakesAPlanetThatInfoDescribes) {
+  const TemporaryFolder folder;
+  write_map(folder / "map.tif", 128, 64);
+  const std::string planet = (folder / "planet").string();
+  const Result made =
+      cli::run({"convert", (folder / "map.tif").string(), "-o", planet, "--credit", "by hand"});
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(made.out, "");
+  for (const char* part : {"wgs84 assumed", "level 5", "filter bilinear", "longitudes -180 to 180 (assumed"})
+    EXPECT_NE(made.err.find(part), std::string::npos) << part << " in " << made.err;
+
+  const Result json = cli::run({"info", planet, "--json", "--verify"});
+  ASSERT_EQ(json.status, 0) << json.err;
+  const nlohmann::json info = nlohmann::json::parse(json.out);
+  EXPECT_EQ(info["layers"][0]["name"], "height");
+  EXPECT_EQ(info["layers"][0]["level"], 5);
+  EXPECT_EQ(info["credits"][0], "by hand");
+  EXPECT_TRUE(info["damage"].empty());
+  const Result text = cli::run({"info", planet});
+  EXPECT_EQ(text.status, 0);
+  EXPECT_NE(text.out.find("height_range"), std::string::npos) << text.out;
+}
+
+TEST(ConvertCommand, TakesNegativeValuesAndQuiet) {
+  const TemporaryFolder folder;
+  write_map(folder / "map.tif", 64, 32);
+  const Result made =
+      cli::run({"convert", (folder / "map.tif").string(), "-o", (folder / "p").string(), "--offset", "-100",
+                "--extent", "-180,-90,180,90", "--nodata=-9999", "--quiet"});
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(made.err, "");
+  const nlohmann::json info =
+      nlohmann::json::parse(cli::run({"info", (folder / "p").string(), "--json"}).out);
+  EXPECT_LT(info["layers"][0]["min"], 0.0);
+}
+
+TEST(ConvertCommand, PrintsProgressForPrograms) {
+  const TemporaryFolder folder;
+  write_map(folder / "map.tif", 1024, 512);
+  const Result made = cli::run({"convert", (folder / "map.tif").string(), "-o", (folder / "p").string(),
+                                "--quiet", "--progress", "json"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  std::istringstream lines(made.err);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count)
+    EXPECT_TRUE(nlohmann::json::parse(line).contains("percent"));
+  EXPECT_GT(count, 3);
+}
+
+TEST(ConvertCommand, RefusesBadInputsWithOneLine) {
+  const TemporaryFolder folder;
+  const std::string map = (folder / "map.tif").string();
+  const std::string planet = (folder / "planet").string();
+  write_map(map, 64, 32);
+  write_map(folder / "square.tif", 64, 64);
+  std::ofstream(folder / "letter.tif") << "Dear Sir or Madam";
+  const auto convert = [&](std::vector<std::string> args) {
+    args.insert(args.begin(), "convert");
+    args.insert(args.end(), {"-o", planet, "--quiet"});
+    return cli::run(args);
+  };
+  expect_refusal(convert({(folder / "absent.tif").string()}), 1, "no such file");
+  expect_refusal(convert({(folder / "letter.tif").string()}), 1, "not a readable image");
+  expect_refusal(convert({(folder / "square.tif").string()}), 1, "not a 2:1 map");
+  expect_refusal(convert({map, "--frobnicate"}), 2, "frobnicate");
+  expect_refusal(convert({}), 2, "no map given");
+  expect_refusal(convert({map, "--filter", "magic"}), 2, "filter");
+  expect_refusal(convert({map, "--level", "99"}), 2, "level");
+  expect_refusal(convert({map, "--extent", "0,-90,360"}), 2, "W,S,E,N");
+  expect_refusal(convert({map, "--extent", "0,-90,180,90"}), 1, "not a whole turn");
+  expect_refusal(convert({map, "--ellipsoid", "pluto"}), 2, "pluto");
+  expect_refusal(convert({map, "--ellipsoid", "-5,0"}), 2, "positive");
+  expect_refusal(convert({map, "--nodata", "many"}), 2, "not a number");
+  expect_refusal(cli::run({"convert", map}), 2, "output");
+  std::filesystem::resize_file(map, std::filesystem::file_size(map) / 2);
+  expect_refusal(convert({map}), 1, "map.tif");
+  EXPECT_FALSE(std::filesystem::exists(planet));
+  EXPECT_FALSE(std::filesystem::exists(planet + ".partial"));
+  expect_refusal(cli::run({"info", planet}), 1, "not a planet");
+}
+
+TEST(ConvertCommand, RefusesAnExistingPlanetUnlessToldToReplaceIt) {
+  const TemporaryFolder folder;
+  write_map(folder / "map.tif", 64, 32);
+  const std::vector<std::string> args{"convert", (folder / "map.tif").string(), "-o",
+                                      (folder / "planet").string(), "--quiet"};
+  EXPECT_EQ(cli::run(args).status, 0);
+  expect_refusal(cli::run(args), 1, "--overwrite");
+  std::vector<std::string> again = args;
+  again.insert(again.end(), {"--overwrite", "--level", "2"});
+  EXPECT_EQ(cli::run(again).status, 0);
+  EXPECT_NE(cli::run({"info", (folder / "planet").string(), "--json"}).out.find("\"level\":2"),
+            std::string::npos);
+}
+
+TEST(ConvertCommand, KilledAtAnyMomentLeavesNoUnfinishedPlanet) {
+  const TemporaryFolder folder;
+  const TemporaryFolder streams;
+  write_map(folder / "map.tif", 2048, 1024);
+  const std::string planet = (folder / "planet").string();
+  const std::vector<std::string> args{
+      "convert", (folder / "map.tif").string(), "-o", planet, "--quiet", "--level", "9"};
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(cli::run(args).status, 0);
+  const auto whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const std::string reference = cli::text_of(planet + "/planet.json");
+  std::filesystem::remove_all(planet);
+  std::mt19937 random(20240501);
+  const int kills = std::getenv("GLOBE_TEST_FULL") != nullptr ? 200 : 8;
+  int unfinished = 0;
+  for (int k = 0; k < kills; ++k) {
+    const pid_t child = cli::start(args, streams.path());
+    std::this_thread::sleep_for(
+        std::chrono::duration<double>(whole * std::uniform_real_distribution<>(0.0, 1.1)(random)));
+    ::kill(child, k % 3 == 0 ? SIGTERM : SIGKILL);
+    cli::wait_for(child);
+    if (std::filesystem::exists(planet)) {
+      EXPECT_EQ(cli::run({"info", planet, "--verify"}).status, 0);
+      EXPECT_EQ(cli::text_of(planet + "/planet.json"), reference);
+      std::filesystem::remove_all(planet);
+    } else {
+      ++unfinished;
+    }
+  }
+  EXPECT_GT(unfinished, 0);
+  EXPECT_EQ(cli::run(args).status, 0) << "what a killed conversion leaves does not stand in the way";
+  EXPECT_EQ(cli::text_of(planet + "/planet.json"), reference);
+  EXPECT_FALSE(std::filesystem::exists(planet + ".partial"));
+}
+
+}  // namespace
