@@ -44,7 +44,9 @@ vec3 ground_colors(const Ground& g) {
   const auto height = static_cast<float>(g.height_m);
   const auto slope = static_cast<float>(glm::length(g.slope));
   const auto sine = static_cast<float>(std::abs(g.sin_latitude));
-  if (g.has_sea && height < 0.0f) return water(height);
+  if (g.has_sea && height < 0.0f) {
+    return mix(water(height), kSnow * 0.85f, step_up(0.955f, 0.975f, sine + 0.012f * g.mottle));  // pack ice
+  }
 
   const float mottle = g.mottle;
   const float snow_from = snow_line(sine);
@@ -77,7 +79,8 @@ vec3 ground_colors(const Ground& g) {
   if (g.has_sea) {
     const float beach =
         (1.0f - step_up(2.0f, 7.0f, height + 2.0f * mottle)) * (1.0f - step_up(0.1f, 0.3f, slope));
-    color = mix(color, kBeach, beach * step_up(0.0f, 0.6f, snow_from * 0.001f));
+    const float near = 1.0f - step_up(150.0f, 1500.0f, static_cast<float>(g.edge_m));  // beaches are narrow
+    color = mix(color, kBeach, beach * near * step_up(0.0f, 0.6f, snow_from * 0.001f));
   }
   return color;
 }
@@ -112,15 +115,18 @@ vec3 mapped_colors(const Ground& g) {
   color = mix(color, rock, step_up(0.72f, 1.25f, s));
   const float lies = snow_share * 2.2f - 0.75f + 0.8f * g.mottle + 0.6f * g.prominence -
                      1.1f * std::max(0.0f, slope - 0.35f);
-  color = mix(color, kSnow, step_up(0.0f, 0.35f, lies) * (1.0f - step_up(0.85f, 1.35f, s)));
+  color =
+      mix(color, kSnow,
+          step_up(0.0f, 0.35f, lies) * step_up(0.06f, 0.2f, snow_share) * (1.0f - step_up(0.85f, 1.35f, s)));
   return mix(color, map, open_water);
 }
 
 }  // namespace
 
 vec3 albedo(const Ground& ground) {
-  const float shade =
-      std::clamp(1.0f + 0.5f * static_cast<float>(ground.cavity) + 0.16f * ground.mottle, 0.55f, 1.5f);
+  const float shade = std::clamp(
+      1.0f + 0.5f * static_cast<float>(ground.cavity) + 0.20f * ground.mottle + 0.12f * ground.prominence,
+      0.55f, 1.5f);
   const vec3 color = ground.has_color ? mapped_colors(ground) : ground_colors(ground);
   if (ground.has_sea && ground.height_m < 0.0) return glm::clamp(color, 0.0f, 1.0f);
   return glm::clamp(color * shade, 0.0f, 1.0f);

@@ -28,7 +28,7 @@ struct Ground {
 /// hold, or height-and-slope colours (Christopoulos 5.4.1) where there is no map.
 glm::vec3 albedo(const Ground& ground);
 
-/// Slope of the drawn ground at a node from its six neighbours (four planes' worth of the tile's lattice).
+/// Slope of the drawn ground (the sea's surface where it lies above the ground) from a node's neighbours.
 struct GroundSlope {
   dvec3 gradient{0.0};  ///< tangent vector, rise over run
   double cavity = 0;    ///< as Ground::cavity

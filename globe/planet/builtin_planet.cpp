@@ -66,8 +66,8 @@ double BuiltinPlanet::mountains_at(const dvec3& u, const Continent& continent) c
   const float land = smooth_step(-0.16f, 0.1f, continent.inland);
   const float crest = ridged_noise(seed_ + kCrests, continent.warped * 11.0, 5, 0.6f);
   const float rise = belt * std::sqrt(belt) * active;
-  const float on_land = 300.0f + 6400.0f * crest * std::sqrt(crest);
-  const float at_sea = 7500.0f * crest * crest;
+  const float on_land = 500.0f + 9500.0f * crest * std::sqrt(crest);
+  const float at_sea = 9500.0f * crest * crest;
   return rise * (land * on_land + (1.0f - land) * at_sea);
 }
 

@@ -20,7 +20,7 @@ class BuiltinPlanet {
     double height_m;
     float moisture;  ///< 0 desert, 1 rain forest
   };
-  /// Some 1.5 µs.
+  /// Some 2 µs.
   Point at(const dvec3& u) const;
 
  private:

@@ -36,7 +36,8 @@ Cell cell_of(std::uint32_t seed, const dvec3& p) {
   const std::array<std::uint32_t, 2> hy{scaled(iy, kY), scaled(iy + 1, kY)};
   const std::array<std::uint32_t, 2> hz{scaled(iz, kZ), scaled(iz + 1, kZ)};
   Cell cell{{}, {static_cast<float>(p.x - x), static_cast<float>(p.y - y), static_cast<float>(p.z - z)}};
-  for (std::size_t k = 0; k < 8; ++k) cell.hash[k] = finish(hx[k & 1] ^ hy[(k >> 1) & 1] ^ hz[k >> 2]);
+  for (std::size_t k = 0; k < 8; ++k) cell.hash[k] = hx[k & 1] ^ hy[(k >> 1) & 1] ^ hz[k >> 2];
+  for (std::size_t k = 0; k < 8; ++k) cell.hash[k] = finish(cell.hash[k]);
   return cell;
 }
 
@@ -45,8 +46,31 @@ float fade_slope(float t) { return 30.0f * t * t * (t * (t - 2.0f) + 1.0f); }
 
 /// Ten bits of a hash as [-1, 1].
 float component(std::uint32_t hash, int shift) {
-  return static_cast<float>((hash >> shift) & 1023u) * (2.0f / 1023.0f) - 1.0f;
+  return static_cast<float>(static_cast<int>((hash >> shift) & 1023u)) * (2.0f / 1023.0f) - 1.0f;
 }
+
+using Eight = std::array<float, 8>;
+
+/// Of the eight corners: the place seen from each, and its weight. Loops over
+/// eight lanes are what compilers turn into vector code.
+struct Corners {
+  Eight x, y, z, weight;
+};
+
+Corners corners_of(const vec3& f, const vec3& w) {
+  Corners c;
+  for (std::size_t k = 0; k < 8; ++k) {
+    const bool px = (k & 1) != 0, py = (k & 2) != 0, pz = (k & 4) != 0;
+    c.x[k] = px ? f.x - 1.0f : f.x;
+    c.y[k] = py ? f.y - 1.0f : f.y;
+    c.z[k] = pz ? f.z - 1.0f : f.z;
+    c.weight[k] = (px ? w.x : 1.0f - w.x) * (py ? w.y : 1.0f - w.y) * (pz ? w.z : 1.0f - w.z);
+  }
+  return c;
+}
+
+/// Sum in a fixed order.
+float sum_of(const Eight& v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); }
 
 }  // namespace
 
@@ -59,23 +83,24 @@ NoiseSample gradient_noise(std::uint32_t seed, const dvec3& p) {
   const vec3 f = cell.f;
   const vec3 w{fade(f.x), fade(f.y), fade(f.z)};
   const vec3 dw{fade_slope(f.x), fade_slope(f.y), fade_slope(f.z)};
-  float value = 0.0f;
-  vec3 gradient{0.0f};
+  const Corners c = corners_of(f, w);
+  Eight gx, gy, gz, value, sx, sy, sz;
+  for (std::size_t k = 0; k < 8; ++k) {
+    gx[k] = component(cell.hash[k], 2);
+    gy[k] = component(cell.hash[k], 12);
+    gz[k] = component(cell.hash[k], 22);
+  }
   for (std::size_t k = 0; k < 8; ++k) {
     const bool px = (k & 1) != 0, py = (k & 2) != 0, pz = (k & 4) != 0;
-    const std::uint32_t h = cell.hash[k];
-    const vec3 g{component(h, 2), component(h, 12), component(h, 22)};
-    const float dot =
-        g.x * (px ? f.x - 1.0f : f.x) + g.y * (py ? f.y - 1.0f : f.y) + g.z * (pz ? f.z - 1.0f : f.z);
+    const float dot = gx[k] * c.x[k] + gy[k] * c.y[k] + gz[k] * c.z[k];
     const float wx = px ? w.x : 1.0f - w.x, wy = py ? w.y : 1.0f - w.y, wz = pz ? w.z : 1.0f - w.z;
-    const float weight = wx * wy * wz;
-    value += weight * dot;
-    gradient.x += weight * g.x + (px ? dw.x : -dw.x) * wy * wz * dot;
-    gradient.y += weight * g.y + (py ? dw.y : -dw.y) * wx * wz * dot;
-    gradient.z += weight * g.z + (pz ? dw.z : -dw.z) * wx * wy * dot;
+    value[k] = c.weight[k] * dot;
+    sx[k] = c.weight[k] * gx[k] + (px ? dw.x : -dw.x) * wy * wz * dot;
+    sy[k] = c.weight[k] * gy[k] + (py ? dw.y : -dw.y) * wx * wz * dot;
+    sz[k] = c.weight[k] * gz[k] + (pz ? dw.z : -dw.z) * wx * wy * dot;
   }
   constexpr float kScale = 1.5f;
-  return {value * kScale, gradient * kScale};
+  return {sum_of(value) * kScale, vec3(sum_of(sx), sum_of(sy), sum_of(sz)) * kScale};
 }
 
 float fractal_noise(std::uint32_t seed, const dvec3& p, int octaves, float gain) {
@@ -109,25 +134,20 @@ float ridged_noise(std::uint32_t seed, const dvec3& p, int octaves, float gain) 
   return sum / norm;
 }
 
-float sine_of_turns(float turns) {
-  const float x = turns - std::floor(turns + 0.5f);
-  const float y = 8.0f * x - 16.0f * x * std::abs(x);
-  return y + 0.225f * (y * std::abs(y) - y);
-}
-
-Stripes stripe_noise(std::uint32_t seed, const dvec3& p, const vec3& across, float waves) {
+Stripes stripe_noise(std::uint32_t seed, const dvec3& p, const vec3& across, float waves, float shift) {
   const Cell cell = cell_of(seed, p);
   const vec3 f = cell.f;
   const vec3 w{fade(f.x), fade(f.y), fade(f.z)};
-  Stripes sum{0.0f, 0.0f};
+  const Corners c = corners_of(f, w);
+  const vec3 along = waves * across;
+  Eight cosine, sine;
   for (std::size_t k = 0; k < 8; ++k) {
-    const bool px = (k & 1) != 0, py = (k & 2) != 0, pz = (k & 4) != 0;
-    const vec3 r{px ? f.x - 1.0f : f.x, py ? f.y - 1.0f : f.y, pz ? f.z - 1.0f : f.z};
-    const float weight = (px ? w.x : 1.0f - w.x) * (py ? w.y : 1.0f - w.y) * (pz ? w.z : 1.0f - w.z);
-    const float turns = waves * glm::dot(r, across) + unit_from_hash(cell.hash[k]);
-    sum.cosine += weight * sine_of_turns(turns + 0.25f);
-    sum.sine += weight * sine_of_turns(turns);
+    const auto phase = static_cast<float>(static_cast<int>(cell.hash[k] >> 8)) * 0x1p-24f;
+    const float turns = c.x[k] * along.x + c.y[k] * along.y + c.z[k] * along.z + (phase + shift);
+    cosine[k] = c.weight[k] * sine_of_turns(turns + 0.25f);
+    sine[k] = c.weight[k] * sine_of_turns(turns);
   }
+  const Stripes sum{sum_of(cosine), sum_of(sine)};
   // Where cells cancel each other stripes would fade; raise them, but leave true dislocations smooth.
   const float length = std::sqrt(sum.cosine * sum.cosine + sum.sine * sum.sine + 0.04f);
   return {sum.cosine / length, sum.sine / length};

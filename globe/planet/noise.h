@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
 
@@ -32,8 +33,13 @@ float fractal_noise(std::uint32_t seed, const dvec3& p, int octaves, float gain)
 /// About [0, 1]. Source: Musgrave's ridged multifractal, "Texturing and Modeling", chapter 16.
 float ridged_noise(std::uint32_t seed, const dvec3& p, int octaves, float gain);
 
-/// sin(2 pi turns), within 0.0011; continuous in slope.
-float sine_of_turns(float turns);
+/// sin(2 pi turns), within 0.0011, for turns up to a million; continuous in slope.
+inline float sine_of_turns(float turns) {
+  constexpr float kToInteger = 12582912.0f;  // 1.5 * 2^23: adding it leaves no bits for a fraction
+  const float x = turns - ((turns + kToInteger) - kToInteger);
+  const float y = 8.0f * x - 16.0f * x * std::abs(x);
+  return y + 0.225f * (y * std::abs(y) - y);
+}
 
 struct Stripes {
   float cosine;  ///< 1 on a stripe's crest, -1 between two
@@ -41,8 +47,9 @@ struct Stripes {
 };
 
 /// Stripes whose normal is `across` (unit), `waves` to a cell; their phase is random in each cell and blended
-/// between cells, so that stripes fork and end. `across` may vary slowly from place to place.
+/// between cells, so that stripes fork and end. `across` and
+/// `shift` (turns) may vary slowly from place to place.
 /// Source: the stripe noise of Rune Skovbo Johansen's erosion filter (2023), here in space.
-Stripes stripe_noise(std::uint32_t seed, const dvec3& p, const vec3& across, float waves);
+Stripes stripe_noise(std::uint32_t seed, const dvec3& p, const vec3& across, float waves, float shift);
 
 }  // namespace globe::planet

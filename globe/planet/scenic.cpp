@@ -11,7 +11,8 @@ namespace {
 
 constexpr int kSearchLevel = 7;
 constexpr int kSummitLevel = 11;
-constexpr int kEyeLevel = 14;
+constexpr int kEyeLevel = 15;
+constexpr double kGentle = 0.2;  ///< steepest slope a place may have
 constexpr double kEyeHeight = 2.0;
 constexpr double kSummitReach = 60000.0;
 
@@ -97,6 +98,20 @@ dvec3 summit_near(const Surface& surface, const dvec3& u) {
   return best;
 }
 
+/// Slope of the ground within some 150 m of a place.
+double steepness_at(const Surface& surface, const dvec3& u) {
+  const geo::Geodetic at = geo::degrees_from_normal(u);
+  const geo::LocalFrame frame = geo::local_frame(at.lat_deg, at.lon_deg);
+  constexpr double kStep = 150.0;
+  const double angle = kStep / surface.ellipsoid().mean_radius();
+  const auto rise = [&](const dvec3& direction) {
+    return (surface.height(moved(u, direction, angle), kEyeLevel) -
+            surface.height(moved(u, -direction, angle), kEyeLevel)) /
+           (2.0 * kStep);
+  };
+  return std::hypot(rise(frame.east), rise(frame.north));
+}
+
 /// The best place to look at a summit from.
 std::pair<double, ScenicView> best_view(const Surface& surface, const dvec3& summit) {
   const geo::Geodetic peak = geo::degrees_from_normal(summit);
@@ -107,12 +122,12 @@ std::pair<double, ScenicView> best_view(const Surface& surface, const dvec3& sum
   std::pair<double, ScenicView> best{-1e30, {}};
   for (int bearing = 0; bearing < 360; bearing += 10) {
     const dvec3 away = geo::look_direction(frame, bearing, 0.0);
-    for (double distance = 12000.0; distance <= 30000.0; distance += 3000.0) {
+    for (double distance = 12000.0; distance <= 36000.0; distance += 4000.0) {
       const dvec3 u = moved(summit, away, distance / radius);
       const double ground = surface.height(u, kEyeLevel);
       if (surface.has_sea() && ground < 20.0) continue;
       double hidden = -1e30;  // steepest line of sight to ground in the way
-      for (double near = 200.0; near < 0.8 * distance; near *= 1.5) {
+      for (double near = 250.0; near < 0.8 * distance; near *= 1.5) {
         const dvec3 there = moved(summit, away, (distance - near) / radius);
         hidden = std::max(hidden, (surface.height(there, kEyeLevel) - ground - kEyeHeight) / near);
       }
@@ -123,7 +138,9 @@ std::pair<double, ScenicView> best_view(const Surface& surface, const dvec3& sum
       const double to_sun = std::cos((heading - sun_heading) * 0.017453292519943295);
       const double light = 1.0 - 0.5 * std::max(0.0, to_sun - 0.1) - 0.15 * std::max(0.0, -to_sun - 0.6);
       const double open = std::clamp((top - ground) / distance - hidden, -0.1, 0.1);
-      const double score = (top - ground) * light * (1.0 + 6.0 * open);
+      if (steepness_at(surface, u) > kGentle) continue;
+      const double low = std::clamp(1.3 - ground / 2500.0, 0.3, 1.0);  // meadows in front
+      const double score = (top - ground) * light * (1.0 + 6.0 * open) * low;
       if (score <= best.first) continue;
       place.h_m = ground;
       best = {score, {place, heading < 0.0 ? heading + 360.0 : heading}};
@@ -136,7 +153,7 @@ std::pair<double, ScenicView> best_view(const Surface& surface, const dvec3& sum
 
 ScenicView scenic_place(const Surface& surface) {
   std::pair<double, ScenicView> best{-1e30, {}};
-  for (const Candidate& range : best_ranges(surface, 4)) {
+  for (const Candidate& range : best_ranges(surface, 3)) {
     const auto view = best_view(surface, summit_near(surface, range.u));
     if (view.first > best.first) best = view;
   }

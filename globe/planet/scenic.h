@@ -14,8 +14,8 @@ struct ScenicView {
 /// A view of high mountains, the same for the same planet; takes under a second.
 ///
 /// Looks for the highest range of the middle latitudes, by the sea where there is one, and in it for a place
-/// 12 to 30 km from the range's summit, low and open towards it, from which the sun stands to the side or
-/// behind at ten in the morning, solar time.
+/// 12 to 36 km from the range's summit, gentle, low and open towards it, from which the sun stands to the
+/// side or behind at ten in the morning, solar time.
 ScenicView scenic_place(const Surface& surface);
 
 }  // namespace globe::planet

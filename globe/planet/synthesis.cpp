@@ -18,9 +18,9 @@ namespace {
 constexpr double kFinestValley = 75.0;  ///< metres
 constexpr double kFinestCrater = 20.0;
 
-constexpr double kFullRoughness = 0.035;   ///< slope between data nodes where roughness is 1
-constexpr double kRoomForRelief = 2200.0;  ///< metres above the sea that relief needs to unfold in full
-constexpr double kNodesPerWave = 3.9;      ///< carving stops where the finest wave has as many
+constexpr double kFullRoughness = 0.035;  ///< slope between data nodes where roughness is 1
+constexpr double kRoomForRelief = 900.0;  ///< metres above the sea that relief needs to unfold in full
+constexpr double kNodesPerWave = 3.9;     ///< carving stops where the finest wave has as many
 
 /// Uniform in [-1, 1) from the top bits of a hash.
 double signed_unit(std::uint64_t hash) { return static_cast<double>(hash >> 11) * 0x1p-52 - 1.0; }
@@ -95,7 +95,7 @@ void carve(const Synthesis& synthesis, bool own_nodes_only, SurfaceTile& tile) {
 /// some 50 m, so that ground at eye height undulates gently.
 void displace(const Synthesis& synthesis, bool own_nodes_only, SurfaceTile& tile) {
   const double edge = synthesis.edge_m(tile.id.level);
-  const double slope = 0.075 * std::sqrt(edge / (edge + 30.0)) * std::sqrt(std::sqrt(edge / (edge + 1.0)));
+  const double slope = 0.15 * std::sqrt(edge / (edge + 25.0));
   TileValues<float>& roughness = tile.channel(Channel::kRoughness);
   TileValues<float>& prominence = tile.channel(Channel::kProminence);
   for_each_node(tile.id, own_nodes_only, [&](int i, int j, const Node& node) {
@@ -105,7 +105,7 @@ void displace(const Synthesis& synthesis, bool own_nodes_only, SurfaceTile& tile
     const double rough = std::clamp(roughness.at(i, j), 0.0f, 1.0f);
     const double calm = rough / (rough + 0.004);  // still water stays still
     const double crest = 0.65 + 0.45 * static_cast<double>(prominence.at(i, j));
-    tile.height.at(i, j) += edge * slope * calm * (0.12 + rough) * std::max(0.15, crest) * push;
+    tile.height.at(i, j) += edge * slope * calm * (0.2 + rough) * std::max(0.15, crest) * push;
     prominence.at(i, j) =
         std::clamp(0.85f * prominence.at(i, j) + 0.3f * static_cast<float>(push), -1.0f, 1.0f);
     roughness.at(i, j) *= 1.0f + 0.3f * static_cast<float>(signed_unit(hash * kThird));
@@ -116,7 +116,9 @@ void displace(const Synthesis& synthesis, bool own_nodes_only, SurfaceTile& tile
 class Measurement {
  public:
   Measurement(const Synthesis& synthesis, const HeightOfNode& height_of)
-      : scale_(relief_scale(synthesis)), edge_m_(scale_.data_edge_m), height_of_(height_of) {}
+      : scale_(relief_scale(synthesis)), edge_m_(scale_.data_edge_m), height_of_(height_of) {
+    known_.reserve(2 * (kTileCells + 16) * (kTileCells + 16));
+  }
 
   float roughness(const Node& node) {
     Known& known = known_[key_of(node)];
@@ -132,8 +134,9 @@ class Measurement {
       const double x = rms / kFullRoughness;
       const double rough = x == 0.0 ? 0.0 : std::min(1.0, 0.012 + std::sqrt(x * std::sqrt(x)));
       // Water does not cut below its base level: coastal lowlands stay low however uneven.
-      const double room = scale_.craters ? 1.0 : 0.006 + std::abs(h) / kRoomForRelief;
-      known_[key_of(node)].roughness = static_cast<float>(std::min(rough, room));
+      const double room = h / kRoomForRelief;
+      known_[key_of(node)].roughness =
+          static_cast<float>(scale_.craters ? rough : std::min(rough, 0.008 + room * room));
     }
     return known_[key_of(node)].roughness;
   }

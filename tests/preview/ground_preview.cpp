@@ -147,9 +147,7 @@ Image perspective_view(Sampler& sampler, double lat, double lon, double above_m,
       const int row =
           std::clamp(static_cast<int>(std::lround(kHeight / 2.0 - focal * std::tan(tilt))), 0, kHeight);
       if (row >= filled) continue;
-      const vec3 eye = -vec3(ahead);
       vec3 color = lit(s, sun, vec3(u), glm::normalize(vec3(frame.up * -rise) - vec3(ahead * forward)));
-      static_cast<void>(eye);
       if (air) {
         const double thin = std::exp(-0.5 * (camera + s.height_m) / 8000.0);
         const auto haze = static_cast<float>(1.0 - std::exp(-distance * thin / 90000.0));
