@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace app {
+
+/// One thing to measure: `run` does it once. Made ready by `prepare`, which is not measured.
+struct Benchmark {
+  std::string name;
+  double items = 1;  ///< of a run, for items_per_s
+  std::function<void()> run;
+};
+
+/// A benchmark by name, made only when it is asked for.
+struct BenchmarkEntry {
+  std::string name;
+  std::function<Benchmark()> prepare;
+};
+
+/// Times of one benchmark over all rounds, nanoseconds.
+struct BenchmarkResult {
+  std::string name;
+  double items = 1;
+  std::vector<double> ns;
+};
+
+/// Lower and upper end of the 95 % confidence interval of the median, by order statistics (binomial), of
+/// sorted values.
+struct Interval {
+  double low = 0;
+  double high = 0;
+};
+Interval median_interval(std::vector<double> values);
+
+/// Runs all of them once a round, one after the other, so that what else the machine does falls on all alike.
+std::vector<BenchmarkResult> run_interleaved(std::vector<Benchmark>& benchmarks, int rounds);
+
+/// What `globe bench` knows (app/bench_geometry.cpp, app/bench_flight.cpp).
+std::vector<BenchmarkEntry> geometry_benchmarks();
+std::vector<BenchmarkEntry> flight_benchmarks(int rounds);
+
+}  // namespace app

@@ -1,0 +1,127 @@
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "app/bench.h"
+#include "app/raw_gl.h"
+#include "globe/geo/sun.h"
+#include "globe/gl/context.h"
+#include "globe/gl/framebuffer.h"
+#include "globe/planet/scenic.h"
+#include "globe/render/globe_renderer.h"
+#include "globe/scene/flight_path.h"
+
+namespace app {
+namespace {
+
+namespace render = globe::render;
+namespace geo = globe::geo;
+
+constexpr int kWidth = 1280;
+constexpr int kHeight = 720;
+
+/// The built-in planet and a flight over it from 20,000 km to 200 m, one frame a round.
+struct World {
+  explicit World(int round_count)
+      : rounds(round_count),
+        surface(globe::planet::Surface::builtin(1)),
+        view(globe::planet::scenic_place(*surface)),
+        path(geo::normal_from_degrees(view.place.lat_deg, view.place.lon_deg), 2e7,
+             geo::normal_from_degrees(view.place.lat_deg, view.place.lon_deg), 200.0, 6.371e6,
+             view.heading_deg, 0.0),
+        sun(geo::morning_sun(view.place.lon_deg)) {}
+
+  render::Camera camera(int round) const {
+    const auto point = path.at(static_cast<double>(round % rounds) / (rounds - 1));
+    const geo::Geodetic place{view.place.lat_deg, view.place.lon_deg, point.height_m + view.place.h_m};
+    return render::make_camera(surface->ellipsoid(), place, point.heading_deg, point.pitch_deg, 60.0,
+                               double(kWidth) / kHeight);
+  }
+
+  int rounds;
+  globe::gl::Context context;
+  std::shared_ptr<const globe::planet::Surface> surface;
+  globe::planet::ScenicView view;
+  globe::scene::FlightPath path;
+  glm::dvec3 sun;
+};
+
+/// Draws the flight as in real time: what is there is drawn, what is missing loads meanwhile.
+struct FlightRun {
+  FlightRun(std::shared_ptr<World> shared, int detail)
+      : world(std::move(shared)), renderer(world->surface, settings(detail)), target(kWidth, kHeight) {
+    renderer.draw(world->camera(0), world->sun, true, target);
+    glFinish();
+  }
+
+  static render::RenderSettings settings(int detail) {
+    render::RenderSettings result;
+    result.clipmap = globe::clipmap::Settings::for_detail(detail);
+    return result;
+  }
+
+  std::size_t draw_next() {
+    const render::FrameStats stats = renderer.draw(world->camera(round++), world->sun, false, target);
+    glFinish();
+    return stats.triangles;
+  }
+
+  std::shared_ptr<World> world;
+  render::GlobeRenderer renderer;
+  globe::gl::Framebuffer target;
+  int round = 0;
+};
+
+/// For every round as many triangles as the flight at detail 64 draws in it, in steps of 4 blocks.
+struct RawRun {
+  explicit RawRun(std::shared_ptr<World> shared) : world(std::move(shared)) {
+    FlightRun flight(world, 64);
+    for (int k = 0; k < world->rounds; ++k) {
+      const std::size_t triangles =
+          flight.renderer.draw(world->camera(k), world->sun, true, flight.target).triangles;
+      const int rounded = std::max(1, (static_cast<int>(triangles) + 4096) / 8192) * 8192;
+      per_round.push_back(rounded);
+      if (!raw.contains(rounded))
+        raw[rounded] = std::make_unique<RawGl>(
+            RawGlLoad{.width = kWidth, .height = kHeight, .triangles_on_screen = rounded});
+      (*raw[rounded])();
+    }
+  }
+
+  void draw_next() {
+    glDisable(GL_CULL_FACE);
+    (*raw.at(per_round[static_cast<std::size_t>(round++ % world->rounds)]))();
+  }
+
+  std::shared_ptr<World> world;
+  std::vector<int> per_round;
+  std::map<int, std::unique_ptr<RawGl>> raw;
+  int round = 0;
+};
+
+}  // namespace
+
+std::vector<BenchmarkEntry> flight_benchmarks(int rounds) {
+  const auto shared = std::make_shared<std::shared_ptr<World>>();
+  const auto world = [shared, rounds] {
+    if (!*shared) *shared = std::make_shared<World>(rounds);
+    return *shared;
+  };
+  std::vector<BenchmarkEntry> entries;
+  for (const int detail : {32, 64, 128}) {
+    const std::string name = "fly.detail" + std::to_string(detail);
+    entries.push_back({name, [=] {
+                         auto flight = std::make_shared<FlightRun>(world(), detail);
+                         return Benchmark{name, 1, [flight] { flight->draw_next(); }};
+                       }});
+  }
+  entries.push_back({"fly.raw_gl", [=] {
+                       auto raw = std::make_shared<RawRun>(world());
+                       return Benchmark{"fly.raw_gl", 1, [raw] { raw->draw_next(); }};
+                     }});
+  return entries;
+}
+
+}  // namespace app
