@@ -159,8 +159,8 @@ void add_convert(CLI::App& program, int& exit_status) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       ->add_option("--memory", arguments->memory_mb,
-                   "MB to use; what does not fit goes to disk (default: half)")
-      ->check(CLI::Range(1, 1 << 24));
+                   "MB to use, at least 256; more goes to disk (default: half)")
+      ->check(CLI::Range(256, 1 << 24));
   command->add_option("--threads", arguments->threads, "default: all cores")->check(CLI::Range(1, 1024));
   command->add_flag("--overwrite", arguments->overwrite, "replace an existing planet");
   command->add_flag("--quiet", arguments->quiet, "warnings and errors only");

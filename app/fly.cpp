@@ -23,6 +23,7 @@
 #include "globe/gl/context.h"
 #include "globe/gl/framebuffer.h"
 #include "globe/gl/timer_query.h"
+#include "globe/planet/scenic.h"
 #include "globe/render/camera.h"
 #include "globe/render/globe_renderer.h"
 #include "globe/scene/flight_path.h"
@@ -142,7 +143,14 @@ void run(const FlyOptions& options) {
   const globe::gl::Framebuffer target(size.width, size.height, format);
 
   Look look = view.look.empty() ? Look{0.0, 0.0} : parse_look(view.look);
-  const End to = parse_end(options.to, view.agl, kFinalHeight, renderer, ellipsoid);
+  End to;
+  if (options.to.empty()) {
+    const globe::planet::ScenicView scenic = globe::planet::scenic_place(*surface);
+    to = {scenic.place, kFinalHeight};
+    if (view.look.empty()) look.heading_deg = scenic.heading_deg;
+  } else {
+    to = parse_end(options.to, view.agl, kFinalHeight, renderer, ellipsoid);
+  }
   const End from = options.from == "orbit"
                        ? End{to.place, kOrbit * ellipsoid.mean_radius() / geo::kWgs84.mean_radius()}
                        : parse_end(options.from, view.agl, kFinalHeight, renderer, ellipsoid);

@@ -24,6 +24,10 @@ using globe::geo::Ellipsoid;
 /// Beyond this many rows a cell, the area filter starts from averaged blocks of samples.
 constexpr double kEnoughRowsPerCell = 16.0;
 
+/// Of the memory cap: what the program takes before it holds any map (seen 128 MB, its libraries), decoders
+/// and windows.
+constexpr std::size_t kReservedBytes = std::size_t{160} << 20;
+
 struct KnownBody {
   const char* name;
   const Ellipsoid& ellipsoid;
@@ -186,8 +190,11 @@ NodeGrid<float> sample_heights(const SourceMap& source, const PlannedMap& map, M
   const RowSink sink = [&](int d, int i, int j, int count, const float* values) {
     std::copy_n(values, count, grid.at(d, i, j));
   };
-  sample_nodes(source, map.filter, map.level, sink, report.stage("sampling heights"));
-  grid.drop_pages();
+  const std::function<void(double)> progress = report.stage("sampling heights");
+  sample_nodes(source, map.filter, map.level, sink, [&](double fraction) {
+    grid.drop_pages();
+    progress(fraction);
+  });
   return grid;
 }
 
@@ -198,8 +205,11 @@ NodeGrid<std::uint8_t> sample_colors(const SourceMap& source, const PlannedMap& 
   const RowSink sink = [&](int d, int i, int j, int count, const float* values) {
     std::transform(values, values + count * channels, grid.at(d, i, j), srgb_byte_from_linear);
   };
-  sample_nodes(source, map.filter, map.level, sink, report.stage("sampling color"));
-  grid.drop_pages();
+  const std::function<void(double)> progress = report.stage("sampling color");
+  sample_nodes(source, map.filter, map.level, sink, [&](double fraction) {
+    grid.drop_pages();
+    progress(fraction);
+  });
   return grid;
 }
 
@@ -262,7 +272,8 @@ void convert(const ConvertOptions& options, const ConvertListener& listener) {
   }
 
   OutputFolder output(options.planet, options.overwrite);
-  MemoryBudget budget{options.memory_bytes > 0 ? options.memory_bytes : default_memory(), output.path()};
+  const std::size_t cap = options.memory_bytes > 0 ? options.memory_bytes : default_memory();
+  MemoryBudget budget{cap - std::min(cap, kReservedBytes), output.path()};
   globe::planet::PlanetFile file;
   const std::filesystem::path name =
       options.planet.has_filename() ? options.planet : options.planet.parent_path();

@@ -32,8 +32,9 @@ struct ConvertOptions {
   double offset = 0;
   std::optional<double> nodata;
   std::vector<std::string> credits;
-  std::size_t memory_bytes = 0;  ///< cap on what the conversion holds; more goes to scratch on disk
-  int threads = 0;               ///< 0: all cores
+  std::size_t memory_bytes =
+      0;            ///< cap on the program's memory, 0: half the machine's; more goes to scratch on disk
+  int threads = 0;  ///< 0: all cores
   bool overwrite = false;
   std::string program_version;  ///< goes into the credits
 };

@@ -73,10 +73,10 @@ double Footprint::max_y() const {
 dvec3 trixel_centre(const dvec3& a, const dvec3& b, const dvec3& c) { return glm::normalize(a + b + c); }
 
 Footprint make_footprint(const MapGeometry& geometry, const SamplePlace& node,
-                         const std::array<dvec3, 6>& centres, int count) {
+                         const std::array<SamplePlace, 6>& centres, int count) {
   std::array<Footprint::Corner, 6> corner{};  // relative to the node
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
-    const SamplePlace place = place_of(geometry, centres[k]);
+    const SamplePlace& place = centres[k];
     int columns = place.x.whole - node.x.whole;
     if (columns > geometry.period / 2) columns -= geometry.period;
     if (columns < -geometry.period / 2) columns += geometry.period;
@@ -99,10 +99,11 @@ Footprint footprint_of(const MapGeometry& geometry, const Node& node) {
   const dvec3 u = node_direction(name);
   std::array<dvec3, 6> ring{};
   const int count = ring_of(name, ring);
-  std::array<dvec3, 6> centres{};
+  std::array<SamplePlace, 6> centres{};
   for (int k = 0; k < count; ++k) {
+    const dvec3& next = ring[static_cast<std::size_t>((k + 1) % count)];
     centres[static_cast<std::size_t>(k)] =
-        trixel_centre(u, ring[static_cast<std::size_t>(k)], ring[static_cast<std::size_t>((k + 1) % count)]);
+        place_of(geometry, trixel_centre(u, ring[static_cast<std::size_t>(k)], next));
   }
   return make_footprint(geometry, place_of(geometry, u), centres, count);
 }

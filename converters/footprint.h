@@ -33,9 +33,9 @@ struct Footprint {
 /// Footprint of a node that is not a pole. Depends on the vertex alone, not on the diamond that names it.
 Footprint footprint_of(const MapGeometry& geometry, const globe::planet::Node& node);
 
-/// Footprint from the place of the node and the centres of its trixels in order around it.
+/// Footprint from the place of the node and those of the centres of its trixels, in order around it.
 Footprint make_footprint(const MapGeometry& geometry, const SamplePlace& node,
-                         const std::array<globe::planet::dvec3, 6>& centres, int count);
+                         const std::array<SamplePlace, 6>& centres, int count);
 
 /// Direction of the middle of a trixel.
 globe::planet::dvec3 trixel_centre(const globe::planet::dvec3& a, const globe::planet::dvec3& b,

@@ -23,14 +23,16 @@ void write_file(const LayerOutput& layer, int d, const std::filesystem::path& pa
   const globe::planet::StoredLayer& stored = layer.stored;
   globe::planet::LayerFileWriter writer(path, stored.stored_level, stored.info.channels, stored.info.storage,
                                         kTileSize);
-  for (const NodeGrid<float>& grid : layer.values) {
-    writer.write_level(grid.diamond(d), written);
-    grid.drop_pages();
-  }
-  for (const NodeGrid<std::uint8_t>& grid : layer.bytes) {
-    writer.write_level(grid.diamond(d), written);
-    grid.drop_pages();
-  }
+  const auto write_levels = [&](const auto& grids) {
+    for (const auto& grid : grids) {
+      writer.write_level(grid.diamond(d), [&](int rows) {
+        grid.drop_pages();
+        written(rows);
+      });
+    }
+  };
+  write_levels(layer.values);
+  write_levels(layer.bytes);
   writer.finish();
 }
 
@@ -70,7 +72,6 @@ std::vector<LayerOutput> height_layers(NodeGrid<float> heights, MemoryBudget& bu
     filter(relief.size() > 1 ? relief[relief.size() - 2] : height.front(), relief.back());
     height.emplace_back(k, 1, budget);
     subsample(height[height.size() - 2], height.back());
-    height.back().drop_pages();
   }
   return layers;
 }

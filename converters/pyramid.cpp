@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -20,14 +21,25 @@ using globe::planet::Node;
 
 constexpr std::size_t kMaxChannels = 4;
 
-/// Runs body(d, j) for every row of a grid.
-template <typename T, typename Body>
-void for_each_row(const NodeGrid<T>& grid, const Body& body) {
-  const int side = grid.side();
-  tbb::parallel_for(tbb::blocked_range<int>(0, kDiamonds * side, 16),
-                    [&](const tbb::blocked_range<int>& rows) {
-                      for (int row = rows.begin(); row < rows.end(); ++row) body(row / side, row % side);
-                    });
+/// Runs body(d, j) for every row of the grid `to`, which is made from `from`; lets go of pages on the way
+/// when the grids lie in files.
+template <typename From, typename To, typename Body>
+void for_each_row(const NodeGrid<From>& from, const NodeGrid<To>& to, const Body& body) {
+  constexpr int kRowsATask = 16;
+  constexpr int kTasksBetweenDrops = 16;
+  const int side = to.side();
+  std::atomic<int> tasks = 0;
+  const tbb::blocked_range<int> all(0, kDiamonds * side, kRowsATask);
+  const auto run = [&](const tbb::blocked_range<int>& rows) {
+    for (int row = rows.begin(); row < rows.end(); ++row) body(row / side, row % side);
+    if (++tasks % kTasksBetweenDrops == 0) {
+      from.drop_pages();
+      to.drop_pages();
+    }
+  };
+  tbb::parallel_for(all, run, tbb::simple_partitioner{});
+  from.drop_pages();
+  to.drop_pages();
 }
 
 constexpr std::array<globe::planet::ivec2, 6> kAround{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
@@ -69,7 +81,7 @@ void include(const float* low_high, float* range) {
 void subsample(const NodeGrid<float>& fine, NodeGrid<float>& coarse) {
   assert(fine.level() == coarse.level() + 1 && fine.channels() == coarse.channels());
   const int channels = fine.channels();
-  for_each_row(coarse, [&](int d, int j) {
+  for_each_row(fine, coarse, [&](int d, int j) {
     for (int i = 0; i < coarse.side(); ++i)
       std::copy_n(fine.at(d, 2 * i, 2 * j), channels, coarse.at(d, i, j));
   });
@@ -80,7 +92,7 @@ void filter(const NodeGrid<float>& fine, NodeGrid<float>& coarse) {
   const int last = coarse.side() - 1;
   const int channels = fine.channels();
   const std::ptrdiff_t row = std::ptrdiff_t{fine.side()} * channels;
-  for_each_row(coarse, [&](int d, int j) {
+  for_each_row(fine, coarse, [&](int d, int j) {
     for (int i = 0; i <= last; ++i) {
       float* out = coarse.at(d, i, j);
       if (i == 0 || j == 0 || i == last || j == last) {
@@ -100,7 +112,7 @@ void filter(const NodeGrid<float>& fine, NodeGrid<float>& coarse) {
 void range_of_heights(const NodeGrid<float>& heights, NodeGrid<float>& ranges) {
   const int cells = 1 << (heights.level() - ranges.level());
   const int last = ranges.side() - 2;
-  for_each_row(ranges, [&](int d, int j) {
+  for_each_row(heights, ranges, [&](int d, int j) {
     for (int i = 0; i < ranges.side(); ++i) {
       float* out = ranges.at(d, i, j);
       out[0] = std::numeric_limits<float>::max();
@@ -119,7 +131,7 @@ void range_of_heights(const NodeGrid<float>& heights, NodeGrid<float>& ranges) {
 
 void range_of_ranges(const NodeGrid<float>& fine, NodeGrid<float>& coarse) {
   const int last = coarse.side() - 2;
-  for_each_row(coarse, [&](int d, int j) {
+  for_each_row(fine, coarse, [&](int d, int j) {
     for (int i = 0; i < coarse.side(); ++i) {
       const int i0 = 2 * std::min(i, last);
       const int j0 = 2 * std::min(j, last);
@@ -137,7 +149,7 @@ void decode_colors(const NodeGrid<std::uint8_t>& bytes, NodeGrid<float>& linear)
   for (std::size_t c = 0; c < table.size(); ++c)
     table[c] = static_cast<float>(linear_from_srgb(double(c) / 255.0));
   const int count = bytes.side() * bytes.channels();
-  for_each_row(bytes, [&](int d, int j) {
+  for_each_row(bytes, linear, [&](int d, int j) {
     const std::uint8_t* from = bytes.at(d, 0, j);
     std::transform(from, from + count, linear.at(d, 0, j), [&](std::uint8_t byte) { return table[byte]; });
   });
@@ -145,7 +157,7 @@ void decode_colors(const NodeGrid<std::uint8_t>& bytes, NodeGrid<float>& linear)
 
 void encode_colors(const NodeGrid<float>& linear, NodeGrid<std::uint8_t>& bytes) {
   const int count = bytes.side() * bytes.channels();
-  for_each_row(bytes, [&](int d, int j) {
+  for_each_row(linear, bytes, [&](int d, int j) {
     const float* from = linear.at(d, 0, j);
     std::transform(from, from + count, bytes.at(d, 0, j), srgb_byte_from_linear);
   });
@@ -165,6 +177,7 @@ Range range(const NodeGrid<float>& grid) {
           const auto [low, high] = std::minmax_element(from, from + grid.side() * grid.channels());
           found = join(found, {static_cast<double>(*low), static_cast<double>(*high)});
         }
+        grid.drop_pages();
         return found;
       },
       join);

@@ -20,6 +20,7 @@ using globe::planet::Node;
 using globe::planet::nodes_per_side;
 
 constexpr int kBlockSide = 64;
+constexpr int kBlocksBetweenDrops = 16;
 constexpr std::int64_t kMaxWindowSamples = std::int64_t{1} << 21;
 
 struct Rect {
@@ -71,29 +72,40 @@ class BlockSampler {
            static_cast<std::size_t>(i - block_.i0);
   }
 
+  /// Footprints of all nodes. Those on the block's rim have trixels outside it and take the long way.
   void find_footprints() {
+    find_trixel_centres();
     footprints_.resize(places_.size());
-    const int n = nodes_per_side(level_);
-    // Nodes on the block's rim have trixels outside it: they, and those on the diamond's border, take the
-    // long way.
     for (int j = block_.j0; j < block_.j0 + block_.nj; ++j) {
       for (int i = block_.i0; i < block_.i0 + block_.ni; ++i) {
         if (is_pole(level_, i, j)) continue;
-        const bool inside = i > block_.i0 && j > block_.j0 && i < block_.i0 + side_ &&
-                            j < block_.j0 + side_ && i < n && j < n;
+        const bool inside = i > block_.i0 && j > block_.j0 && i < block_.i0 + side_ && j < block_.j0 + side_;
         footprints_[index(i, j)] =
             inside ? inner_footprint(i, j) : footprint_of(geometry_, {d_, level_, i, j});
       }
     }
   }
 
+  /// Of both trixels of every cell: the one with the cell's first node, then the other.
+  void find_trixel_centres() {
+    for (int j = block_.j0; j < block_.j0 + side_; ++j) {
+      for (int i = block_.i0; i < block_.i0 + side_; ++i) {
+        const dvec3& a = nodes_.at(i + 1, j);
+        const dvec3& b = nodes_.at(i, j + 1);
+        centres_.push_back(place_of(geometry_, trixel_centre(nodes_.at(i, j), a, b)));
+        centres_.push_back(place_of(geometry_, trixel_centre(nodes_.at(i + 1, j + 1), b, a)));
+      }
+    }
+  }
+
   Footprint inner_footprint(int i, int j) const {
-    const dvec3& u = nodes_.at(i, j);
-    const dvec3 &a = nodes_.at(i + 1, j), &b = nodes_.at(i, j + 1), &c = nodes_.at(i - 1, j + 1);
-    const dvec3 &e = nodes_.at(i - 1, j), &f = nodes_.at(i, j - 1), &g = nodes_.at(i + 1, j - 1);
+    const auto first = [&](int ci, int cj) -> const SamplePlace& {
+      return centres_[static_cast<std::size_t>(2 * ((cj - block_.j0) * side_ + (ci - block_.i0)))];
+    };
+    const auto second = [&](int ci, int cj) -> const SamplePlace& { return (&first(ci, cj))[1]; };
     return make_footprint(geometry_, places_[index(i, j)],
-                          {trixel_centre(u, a, b), trixel_centre(u, b, c), trixel_centre(u, c, e),
-                           trixel_centre(u, e, f), trixel_centre(u, f, g), trixel_centre(u, g, a)},
+                          {first(i, j), second(i - 1, j), first(i - 1, j), second(i - 1, j - 1),
+                           first(i, j - 1), second(i, j - 1)},
                           6);
   }
 
@@ -194,6 +206,7 @@ class BlockSampler {
   NodeBlock nodes_;
   const RowSink& sink_;
   std::vector<SamplePlace> places_;
+  std::vector<SamplePlace> centres_;
   std::vector<Footprint> footprints_;
   Window window_;
   std::vector<float> row_;
@@ -232,7 +245,7 @@ void sample_nodes(const SourceMap& map, Filter filter, int level, const RowSink&
     const Rect rect{i, j, i + side == n ? side + 1 : side, j + side == n ? side + 1 : side};
     BlockSampler(map, filter, d, level, rect, sink).run();
     const int now = ++done;
-    if (now % 64 == 0) {
+    if (now % kBlocksBetweenDrops == 0) {
       map.drop_pages();
       progress(double(now) / blocks);
     }

@@ -102,7 +102,7 @@ void main() {
   vec3 direction = round_km / max(away, 1e-9);
   vec3 half_way = normalize(sun - direction);
   float facing = max(dot(normal, half_way), 0.0);
-  shading.glint = 1.2 * pow(facing, 180.0) * step(0.0, shading.lit.x);
+  shading.glint = 0.22 * pow(facing, 120.0) * step(0.0, shading.lit.x);
 
   float height_km = height * 1e-3;
   if (view.rounding.z > 0.0) {

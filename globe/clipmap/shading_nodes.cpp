@@ -51,7 +51,8 @@ class TileMetric {
             half_metric(ellipsoid, axis, u(1, 1), u(0, 1), u(1, 0), -block_);
       }
     }
-    sin_latitude_ = normals[0].z;
+    sin_latitude_.reserve(normals.size());
+    for (const dvec3& u : normals) sin_latitude_.push_back(u.z);
   }
 
   const Metric& at(int i, int j) const {
@@ -60,8 +61,15 @@ class TileMetric {
     const bool upper = (i - id_.first_i() - x * block_) + (j - id_.first_j() - y * block_) > block_;
     return metrics_[static_cast<std::size_t>(2 * (y * per_side_ + x) + (upper ? 1 : 0))];
   }
-  /// Of the tile's first node: what colours depend on varies little over a tile.
-  double sin_latitude() const { return sin_latitude_; }
+  double sin_latitude(int i, int j) const {
+    const int x = std::min((i - id_.first_i()) / block_, per_side_ - 1);
+    const int y = std::min((j - id_.first_j()) / block_, per_side_ - 1);
+    const double fx = static_cast<double>(i - id_.first_i() - x * block_) / block_;
+    const double fy = static_cast<double>(j - id_.first_j() - y * block_) / block_;
+    const double* z = &sin_latitude_[static_cast<std::size_t>(y * (per_side_ + 1) + x)];
+    return (z[0] * (1.0 - fx) + z[1] * fx) * (1.0 - fy) +
+           (z[per_side_ + 1] * (1.0 - fx) + z[per_side_ + 2] * fx) * fy;
+  }
 
  private:
   static int block_cells(const TileId& id) {
@@ -88,7 +96,7 @@ class TileMetric {
   int block_;
   int per_side_;
   std::vector<Metric> metrics_;
-  double sin_latitude_ = 0;
+  std::vector<double> sin_latitude_;  ///< at the blocks' corners
 };
 
 glm::u16vec2 encode_normal(const glm::dvec2& slope) {
@@ -113,11 +121,6 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
   const TileMetric metrics(surface.ellipsoid(), id);
   const double edge = std::ldexp(surface.root_edge(), -id.level);
   const bool sea = surface.has_sea();
-  planet::Ground ground;
-  ground.edge_m = edge;
-  ground.has_color = surface.has_colors();
-  ground.has_sea = sea;
-  ground.sin_latitude = metrics.sin_latitude();
   for (int j = part.j0; j <= part.j1; ++j) {
     for (int i = part.i0; i <= part.i1; ++i) {
       const Metric& metric = metrics.at(i, j);
@@ -127,14 +130,10 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
       // Least-squares plane over the six neighbours of the triangular lattice.
       const double di = (2.0 * (e - w) + (ne - se) + (s - n)) / 6.0;
       const double dj = (2.0 * (s - n) + (se - ne) + (e - w)) / 6.0;
+      planet::Ground ground = planet::tile_ground(surface, tile, i, j);
       ground.slope = metric.a * di + metric.b * dj;
-      ground.height_m = tile.height.at(i, j);
       ground.cavity = (own - (e + w + s + n + se + ne) / 6.0) / edge;
-      ground.roughness = tile.channel(planet::Channel::kRoughness).at(i, j);
-      ground.mottle = tile.channel(planet::Channel::kMottle).at(i, j);
-      ground.color = {tile.channel(planet::Channel::kRed).at(i, j),
-                      tile.channel(planet::Channel::kGreen).at(i, j),
-                      tile.channel(planet::Channel::kBlue).at(i, j)};
+      ground.sin_latitude = metrics.sin_latitude(i, j);
       const bool water = sea && ground.height_m < 0.0;
       const glm::vec3 color = planet::albedo(ground);
       const std::size_t k =

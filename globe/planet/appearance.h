@@ -37,6 +37,9 @@ struct GroundSlope {
 GroundSlope slope_at(const Surface& surface, const SurfaceTile& tile, const TileValues<dvec3>& directions,
                      int i, int j);
 
+/// What a tile itself knows of a node for albedo: all but slope, cavity and latitude.
+Ground tile_ground(const Surface& surface, const SurfaceTile& tile, int i, int j);
+
 /// Everything albedo asks for at a node of a tile (no guard nodes).
 Ground ground_at(const Surface& surface, const SurfaceTile& tile, const TileValues<dvec3>& directions, int i,
                  int j);

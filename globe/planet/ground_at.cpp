@@ -32,15 +32,10 @@ GroundSlope slope_at(const Surface& surface, const SurfaceTile& tile, const Tile
   return result;
 }
 
-Ground ground_at(const Surface& surface, const SurfaceTile& tile, const TileValues<dvec3>& directions, int i,
-                 int j) {
-  const GroundSlope slope = slope_at(surface, tile, directions, i, j);
+Ground tile_ground(const Surface& surface, const SurfaceTile& tile, int i, int j) {
   const auto channel = [&](Channel c) { return tile.channel(c).at(i, j); };
   Ground ground;
   ground.height_m = tile.height.at(i, j);
-  ground.slope = {glm::length(slope.gradient), 0.0};
-  ground.cavity = slope.cavity;
-  ground.sin_latitude = directions.at(i, j).z;
   ground.edge_m = std::ldexp(surface.root_edge(), -tile.id.level);
   ground.roughness = channel(Channel::kRoughness);
   ground.prominence = channel(Channel::kProminence);
@@ -49,7 +44,17 @@ Ground ground_at(const Surface& surface, const SurfaceTile& tile, const TileValu
   ground.color = {channel(Channel::kRed), channel(Channel::kGreen), channel(Channel::kBlue)};
   ground.has_color = surface.has_colors();
   ground.has_sea = surface.has_sea();
-  ground.airless = surface.info().body == "moon";
+  ground.airless = surface.is_airless();
+  return ground;
+}
+
+Ground ground_at(const Surface& surface, const SurfaceTile& tile, const TileValues<dvec3>& directions, int i,
+                 int j) {
+  const GroundSlope slope = slope_at(surface, tile, directions, i, j);
+  Ground ground = tile_ground(surface, tile, i, j);
+  ground.slope = {glm::length(slope.gradient), 0.0};
+  ground.cavity = slope.cavity;
+  ground.sin_latitude = directions.at(i, j).z;
   return ground;
 }
 

@@ -80,6 +80,7 @@ class Surface {
   int data_level() const { return data_level_; }
   bool has_colors() const { return color_level_ >= 0; }
   /// True when ground below height 0 lies under a sea, which is then drawn as a flat surface at height 0.
+  bool is_airless() const { return info_.body == "moon"; }
   bool has_sea() const { return dataset_ == nullptr || info_.body == "earth"; }
   /// Length of a level-0 edge along the mean sphere, metres; a level-L edge is about 2^-L of it.
   double root_edge() const;

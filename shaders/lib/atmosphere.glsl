@@ -42,7 +42,7 @@ vec3 sun_transmittance(float h, float cos_sun, float ground) {
 // Light of the sky from above on level ground, for sunlight of 1: a fit by eye, blue by day, fading through twilight.
 vec3 sky_irradiance(float h, float cos_sun) {
   float day = smoothstep(-0.16f, 0.35f, cos_sun);
-  return vec3(0.055f, 0.085f, 0.14f) * day * exp(-max(h, 0.0f) / 12.0f);
+  return vec3(0.11f, 0.145f, 0.20f) * day * exp(-max(h, 0.0f) / 12.0f);
 }
 
 float rayleigh_phase(float cos_angle) { return 0.0596831f * (1.0f + cos_angle * cos_angle); }
@@ -68,7 +68,7 @@ vec3 haze(vec3 eye, vec3 direction, float from, float to, vec3 sun, vec3 sun_at_
           int steps, OUT(vec3) transmitted) {
   float cos_angle = dot(direction, sun);
   float phase_m = mie_phase(cos_angle);
-  vec3 again = sky_irradiance(0.0f, cos_sun) * 0.35f;
+  vec3 again = sky_irradiance(0.0f, cos_sun) * 0.2f;
   float lowest = clamp(-dot(eye, direction), from, to);
   vec3 first = sun_at_from * rayleigh_phase(cos_angle);
   vec3 change = (sun_at_to - sun_at_from) * rayleigh_phase(cos_angle);
@@ -118,7 +118,7 @@ vec4 sky_light(vec3 eye, vec3 direction, float from, float to, vec3 sun, float g
     float cos_sun = dot(p, sun) / r;
     vec3 here = extinction(column_r + 0.5f * density_r, column_m + 0.5f * density_m);
     vec3 lit = here * sun_transmittance(h, cos_sun, ground);
-    vec3 again = here * sky_irradiance(h, cos_sun) * 0.35f;
+    vec3 again = here * sky_irradiance(h, cos_sun) * 0.2f;
     vec3 rayleigh = kRayleigh * density_r;
     float mie = kMieScattering * density_m;
     light += vec4(lit * rayleigh * phase_r + again * (rayleigh + vec3(mie)), lit.x * mie);
