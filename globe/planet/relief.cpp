@@ -33,7 +33,7 @@ RoundedAbs rounded_abs(float x, float rounding) {
 
 /// Roughness at a wavelength: small valleys are more alike everywhere than massifs are.
 float roughness_at(float roughness, double wave_m) {
-  const auto t = static_cast<float>(std::clamp(1.0 - wave_m / 10000.0, 0.0, 0.55));
+  const auto t = static_cast<float>(std::max(0.0, 0.55 * (1.0 - wave_m / 2500.0)));
   return roughness + t * (std::sqrt(roughness) - roughness);
 }
 

@@ -136,7 +136,7 @@ class Measurement {
       // Water does not cut below its base level: coastal lowlands stay low however uneven.
       const double room = h / kRoomForRelief;
       known_[key_of(node)].roughness =
-          static_cast<float>(scale_.craters ? rough : std::min(rough, 0.008 + room * room));
+          static_cast<float>(scale_.craters ? rough : std::min(rough, 0.004 + room * room));
     }
     return known_[key_of(node)].roughness;
   }
