@@ -52,6 +52,7 @@ struct World {
 struct FlightRun {
   FlightRun(std::shared_ptr<World> shared, int detail)
       : world(std::move(shared)), renderer(world->surface, settings(detail)), target(kWidth, kHeight) {
+    renderer.warm_up(target);
     renderer.draw(world->camera(0), world->sun, true, target);
     glFinish();
   }

@@ -164,6 +164,7 @@ void run(const FlyOptions& options) {
                     surface->data_level());
   Progress progress(progress_style(view.quiet || view.output == "-", false));
 
+  renderer.warm_up(target);
   globe::gl::TimerQuery timer = globe::gl::TimerQuery::create();
   const double aspect = static_cast<double>(size.width) / size.height;
   for (int k = 0; k < options.frames; ++k) {

@@ -136,6 +136,7 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
       ground.sin_latitude = metrics.sin_latitude(i, j);
       const bool water = sea && ground.height_m < 0.0;
       const glm::vec3 color = planet::albedo(ground);
+      const bool open_water = water && color.r < 0.3f;  // not pack ice
       const std::size_t k =
           static_cast<std::size_t>(j - block.nodes.j0) * static_cast<std::size_t>(block.nodes.width()) +
           static_cast<std::size_t>(i - block.nodes.i0);

@@ -5,6 +5,18 @@
 #include <utility>
 
 namespace globe::clipmap {
+namespace {
+
+constexpr double kStepCost = 1.5;  ///< levels filled from nothing in one step, strips counted by their share
+constexpr double kStripCost = 0.15;
+
+/// Rough share of a level's region that stays when its nadir moves to a point.
+double share_kept(const Settings& settings, const LevelData& held, const GridPoint& point) {
+  const std::int64_t moved = hex_distance(images(grid_point(held.region.centre), point.d), point.at);
+  return 1.0 - static_cast<double>(moved) / static_cast<double>(2 * settings.s * kSubcell);
+}
+
+}  // namespace
 
 std::size_t StateUpdate::upload_bytes() const {
   std::size_t bytes = 0;
@@ -22,23 +34,41 @@ bool still_holds(const Settings& settings, const ClipmapState& state, const Targ
 }
 
 StateUpdate advance(const Settings& settings, const planet::Surface& surface, const Target& target,
-                    const ClipmapState* before) {
+                    const ClipmapState* before, Stride stride) {
+  const int wanted = target.finest - settings.base_level + 1;
+  const auto held_at = [&](int k) -> const LevelData* {
+    const auto index = static_cast<std::size_t>(k);
+    return before != nullptr && index < before->levels.size() ? before->levels[index].get() : nullptr;
+  };
+  const auto stays = [&](int k) {
+    const LevelData* held = held_at(k);
+    if (held == nullptr) return false;
+    const GridPoint point = nadir(target.u, settings.base_level + k);
+    return k == 0 || nearest_lattice_node(point, settings.unit()) == held->region.centre;
+  };
+  int count = wanted;
+  if (stride == Stride::kStep) {
+    double cost = 0.0;
+    for (count = 0; count < wanted && cost < kStepCost; ++count) {
+      if (stays(count)) continue;
+      const LevelData* held = held_at(count);
+      const bool overlaps =
+          held != nullptr && share_kept(settings, *held, nadir(target.u, settings.base_level + count)) > 0.5;
+      cost += overlaps ? kStripCost : 1.0;
+    }
+  }
   auto state = std::make_shared<ClipmapState>();
-  state->target = target;
-  const int count = target.finest - settings.base_level + 1;
+  state->target = {target.u, settings.base_level + count - 1};
   state->levels.resize(static_cast<std::size_t>(count));
   std::vector<LevelUpdate> updates(static_cast<std::size_t>(count));
   tbb::parallel_for(0, count, [&](int k) {
     const auto index = static_cast<std::size_t>(k);
-    const int level = settings.base_level + k;
-    const LevelData* held =
-        before != nullptr && index < before->levels.size() ? before->levels[index].get() : nullptr;
-    const GridPoint point = nadir(target.u, level);
-    if (held != nullptr && (k == 0 || nearest_lattice_node(point, settings.unit()) == held->region.centre)) {
+    if (stays(k)) {
       state->levels[index] = before->levels[index];
       return;
     }
-    updates[index] = update_level(settings, surface, make_region(settings, point), held);
+    updates[index] = update_level(
+        settings, surface, make_region(settings, nadir(target.u, settings.base_level + k)), held_at(k));
     state->levels[index] = updates[index].data;
   });
   StateUpdate update{std::move(state), {}};
@@ -91,7 +121,7 @@ void Stream::work(const std::stop_token& stop) {
     std::optional<StateUpdate> result;
     std::exception_ptr failure;
     try {
-      result = advance(settings_, *surface_, job.target, job.before.get());
+      result = advance(settings_, *surface_, job.target, job.before.get(), Stride::kStep);
     } catch (...) {
       failure = std::current_exception();
     }

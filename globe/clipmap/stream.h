@@ -35,10 +35,15 @@ struct StateUpdate {
   std::size_t upload_bytes() const;
 };
 
+/// How much of a target one call of advance does: all of it, or so much that a long way is gone in steps,
+/// coarse levels first.
+enum class Stride { kWhole, kStep };
+
 /// Computes the state for a target from the state before (null: nothing). Levels whose region stays are kept
-/// as they are. Levels are independent of each other and computed on all cores.
+/// as they are. Levels are independent of each other and computed on all cores. A step stops at the level
+/// after which some two levels had to be filled from nothing; its state then is coarser than the target.
 StateUpdate advance(const Settings& settings, const planet::Surface& surface, const Target& target,
-                    const ClipmapState* before);
+                    const ClipmapState* before, Stride stride);
 
 /// Regions move only when the nadir comes closer to another node of their lattice: true when every level of
 /// `state` is still the right one for `u` and it reaches `finest`.

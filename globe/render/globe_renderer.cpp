@@ -150,7 +150,8 @@ std::size_t GlobeRenderer::load(const clipmap::Target& target, bool wait) {
       state_ = std::move(moved);
       return 0;
     }
-    return take(clipmap::advance(settings_.clipmap, *surface_, target, state_.get()));
+    return take(
+        clipmap::advance(settings_.clipmap, *surface_, target, state_.get(), clipmap::Stride::kWhole));
   }
   if (!stream_) stream_ = std::make_unique<clipmap::Stream>(settings_.clipmap, surface_);
   std::size_t bytes = 0;
@@ -159,10 +160,36 @@ std::size_t GlobeRenderer::load(const clipmap::Target& target, bool wait) {
     auto moved = std::make_shared<clipmap::ClipmapState>(*state_);
     moved->target = {target.u, state_->finest_level()};
     state_ = std::move(moved);
+    // Nothing is missing: make the next finer level ready, so that it is there when the camera comes down to
+    // it.
+    if (state_->finest_level() <= target.finest && target.finest < settings_.max_level) {
+      stream_->request({target.u, target.finest + 1}, state_);
+    }
   } else {
     stream_->request(target, state_);
   }
   return bytes;
+}
+
+void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
+  // Software drivers compile a program at its first draw: draw a patch with each, and whatever the first view
+  // needs otherwise.
+  Camera camera;
+  camera.position = glm::dvec3(4.0 * surface_->ellipsoid().a, 0.0, 0.0);
+  camera.forward = glm::dvec3(-1, 0, 0);
+  camera.right = glm::dvec3(0, 1, 0);
+  camera.up = glm::dvec3(0, 0, 1);
+  draw(camera, glm::dvec3(1, 0, 0), true, target);
+  DrawList list = make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), kLowestGround,
+                                 camera, settings_.clipmap.base_level, 0.0f, true);
+  std::vector<Batch> batches;
+  for (const Kind kind : {Kind::kPlain, Kind::kMorphing, Kind::kRim}) {
+    batches.push_back({kind, kind == Kind::kRim ? 1 : 0, {list.batches.front().instances.front()}});
+  }
+  list.batches = std::move(batches);
+  FrameStats ignored;
+  target.bind();
+  draw_ground(list, ignored);
 }
 
 FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool wait,

@@ -57,6 +57,10 @@ class GlobeRenderer {
   ///              there is drawn at once; the rest comes over the next frames.
   FrameStats draw(const Camera& camera, const glm::dvec3& sun, bool wait, const gl::Framebuffer& target);
 
+  /// Loads the base level and has every program compiled, so that the first frames of a flight take no longer
+  /// than others.
+  void warm_up(const gl::Framebuffer& target);
+
   /// Height of the camera above the ground that is drawn at the finest level under it, metres.
   double height_above_ground(const glm::dvec3& position) const;
 
