@@ -112,7 +112,7 @@ std::uint8_t encode_albedo(float linear) {
 }
 
 /// How much of the sea floor's relief is seen through the water above it.
-double water_clarity(double height) { return std::exp(height / 60.0); }
+double water_clarity(double height) { return std::exp(height / 25.0); }
 
 void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const NodeRect& part,
                      ShadingBlock& block) {
@@ -142,7 +142,7 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
           static_cast<std::size_t>(i - block.nodes.i0);
       block.normal[k] = encode_normal(water ? ground.slope * water_clarity(ground.height_m) : ground.slope);
       block.albedo[k] = {encode_albedo(color.r), encode_albedo(color.g), encode_albedo(color.b),
-                         water ? 255 : 0};
+                         open_water ? 255 : 0};
     }
   }
 }

@@ -28,7 +28,7 @@ struct ViewBlock {
   glm::vec4 sun_at_eye;
 };
 
-constexpr float kSunlight = 4.0f;  ///< sunlight above the air, in units of the tone curve's white
+constexpr float kSunlight = 5.0f;  ///< sunlight above the air, in units of the tone curve's white
 constexpr float kExposure = 1.0f;
 constexpr int kHazeSteps = 4;           ///< samples of the air between the eye and a vertex
 constexpr int kSkySteps = 16;           ///< samples of the air along a ray of the sky map

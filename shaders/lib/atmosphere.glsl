@@ -11,6 +11,7 @@ const float kRayleighHeight = 8.0f;  // scale heights, km
 const float kMieHeight = 1.2f;
 const float kMieAsymmetry = 0.76f;
 const float kAirTop = 80.0f;
+const float kSkyHeight = 12.0f;  // height over which the light of the sky falls to 1/e
 
 // Column of air above a point in units of its density there times the scale height; x = radius / scale height.
 float chapman_upward(float x, float cos_zenith) {
@@ -42,7 +43,7 @@ vec3 sun_transmittance(float h, float cos_sun, float ground) {
 // Light of the sky from above on level ground, for sunlight of 1: a fit by eye, blue by day, fading through twilight.
 vec3 sky_irradiance(float h, float cos_sun) {
   float day = smoothstep(-0.16f, 0.35f, cos_sun);
-  return vec3(0.11f, 0.145f, 0.20f) * day * exp(-max(h, 0.0f) / 12.0f);
+  return vec3(0.11f, 0.145f, 0.20f) * day * exp(-max(h, 0.0f) / kSkyHeight);
 }
 
 float rayleigh_phase(float cos_angle) { return 0.0596831f * (1.0f + cos_angle * cos_angle); }
@@ -88,7 +89,8 @@ vec3 haze(vec3 eye, vec3 direction, float from, float to, vec3 sun, vec3 sun_at_
     vec3 here = extinction(column_r + 0.5f * density_r, column_m + 0.5f * density_m);
     vec3 lit = first + change * ((middle - from) / max(to - from, 1e-6f));
     float mie = kMieScattering * density_m;
-    light += here * (lit * (kRayleigh * density_r + vec3(mie * mie_share)) + again * (kRayleigh * density_r + vec3(mie)));
+    vec3 repeated = again * exp(-h / kSkyHeight);
+    light += here * (lit * (kRayleigh * density_r + vec3(mie * mie_share)) + repeated * (kRayleigh * density_r + vec3(mie)));
     column_r += density_r;
     column_m += density_m;
     previous = next;
