@@ -27,9 +27,7 @@ void main() {
     float cos_azimuth = dot(level, toward_sun) * inversesqrt(max(dot(level, level) * dot(toward_sun, toward_sun), 1e-12));
     vec2 place = vec2(sky_column(clamp(cos_azimuth, -1.0, 1.0)), sky_row(cos_zenith, bounds));
     vec4 sky = texture(sky_map, (place * (size - 1.0) + 0.5) / size);
-    // Mie light in all colours from its red: it is dimmed on its way as the Rayleigh light is (Bruneton and Neyret, section 4).
-    vec3 mie = sky.w * (sky.xyz / max(sky.x, 1e-7)) * (kRayleigh.x / kRayleigh);
-    light = sky.xyz + mie * mie_phase(dot(direction, sun));
+    light = with_mie(sky, dot(direction, sun));
     light *= view.sun.w * (cos_zenith <= bounds.y ? 1.0 : 0.0);
   }
   float beside = dot(true_direction, view.sun.xyz);

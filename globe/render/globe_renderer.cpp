@@ -30,9 +30,11 @@ struct ViewBlock {
 
 constexpr float kSunlight = 5.0f;  ///< sunlight above the air, in units of the tone curve's white
 constexpr float kExposure = 1.0f;
-constexpr int kHazeSteps = 4;           ///< samples of the air between the eye and a vertex
-constexpr int kSkySteps = 16;           ///< samples of the air along a ray of the sky map
-constexpr glm::ivec2 kSkyMap{32, 128};  ///< texels across azimuth and up from the horizon
+constexpr int kHazeSteps = 4;              ///< samples of the air between the eye and a vertex
+constexpr double kTwilightCosine = 0.3;    ///< of the sun's zenith angle: lower, the haze is sampled in full
+constexpr double kTwilightHeight = 300.0;  ///< km; from higher up the terminator is a narrow band
+constexpr int kSkySteps = 16;              ///< samples of the air along a ray of the sky map
+constexpr glm::ivec2 kSkyMap{32, 128};     ///< texels across azimuth and up from the horizon
 constexpr std::size_t kMaxInstances = 32768;
 constexpr float kLateFade = 0.1f;  ///< a level that arrives late morphs in by this much a frame
 /// Nothing drawn lies lower: the deepest ground of the bodies known, and the sag of base-level triangles.
@@ -69,12 +71,13 @@ ViewBlock view_block(const Camera& camera, const planet::Surface& surface, const
   block.forward = glm::vec4(glm::vec3(camera.forward), 0.0f);
   const glm::dvec3 eye_km = camera.position * rounding * 1e-3;
   const double height_km = std::max(glm::length(eye_km) - radius * 1e-3, 0.0);
-  block.sun_at_eye = glm::vec4(1.0f);
+  block.sun_at_eye = glm::vec4(1.0f, 1.0f, 1.0f, 0.0f);
   if (has_air(surface.info())) {
-    block.sun_at_eye = glm::vec4(sun_transmittance(static_cast<float>(height_km),
-                                                   static_cast<float>(glm::dot(glm::normalize(eye_km), sun)),
+    const double cos_sun = glm::dot(glm::normalize(eye_km), sun);
+    const bool twilight = cos_sun < kTwilightCosine && height_km < kTwilightHeight;
+    block.sun_at_eye = glm::vec4(sun_transmittance(static_cast<float>(height_km), static_cast<float>(cos_sun),
                                                    static_cast<float>(radius * 1e-3)),
-                                 0.0f);
+                                 twilight ? 1.0f : 0.0f);
   }
   return block;
 }

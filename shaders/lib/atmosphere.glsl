@@ -130,3 +130,10 @@ vec4 sky_light(vec3 eye, vec3 direction, float from, float to, vec3 sun, float g
   }
   return light;
 }
+
+// Sky light in all its colours. Mie light from its red: it is dimmed on its way as the Rayleigh light is (Bruneton and Neyret 2008,
+// section 4).
+vec3 with_mie(vec4 light, float cos_angle) {
+  float share = min(light.w / max(light.x, 1e-7f), 12.0f);  // where next to no light is left its colour says nothing
+  return vec3(light) + vec3(light) * (kRayleigh.x / kRayleigh) * (share * mie_phase(cos_angle));
+}
