@@ -1,0 +1,46 @@
+#include "app/bench.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "app/flight_stats.h"
+
+namespace app {
+namespace {
+
+TEST(Percentile, IsTheNearestRank) {
+  const std::vector<double> values{5, 1, 4, 2, 3};
+  EXPECT_EQ(percentile(values, 50), 3);
+  EXPECT_EQ(percentile(values, 99), 5);
+  EXPECT_EQ(percentile(values, 1), 1);
+  EXPECT_EQ(percentile({}, 50), 0);
+}
+
+TEST(MedianInterval, HoldsTheMedianInNineteenOfTwentyRuns) {
+  std::mt19937_64 random(3);
+  std::exponential_distribution<double> skewed;
+  const double truth = 0.6931471805599453;
+  int held = 0;
+  constexpr int kRuns = 2000;
+  for (int run = 0; run < kRuns; ++run) {
+    std::vector<double> values(60);
+    for (double& value : values) value = skewed(random);
+    const Interval interval = median_interval(values);
+    if (interval.low <= truth && truth <= interval.high) ++held;
+  }
+  EXPECT_GT(held, kRuns * 93 / 100);
+  EXPECT_LT(held, kRuns * 98 / 100);
+}
+
+TEST(RunInterleaved, RunsEveryBenchmarkOnceARound) {
+  std::string order;
+  std::vector<Benchmark> benchmarks{{"a", 1, [&] { order += 'a'; }}, {"b", 1, [&] { order += 'b'; }}};
+  const auto results = run_interleaved(benchmarks, 3);
+  EXPECT_EQ(order, "ababab");
+  EXPECT_EQ(results[0].ns.size(), 3u);
+  EXPECT_EQ(results[1].name, "b");
+}
+
+}  // namespace
+}  // namespace app
