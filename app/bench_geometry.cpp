@@ -11,8 +11,8 @@
 #include "globe/clipmap/shading_nodes.h"
 #include "globe/geo/ellipsoid.h"
 #include "globe/htm/trixel.h"
+#include "globe/planet/directions.h"
 #include "globe/planet/surface.h"
-#include "globe/planet/tile_directions.h"
 
 namespace app {
 namespace {
@@ -76,7 +76,7 @@ Benchmark vertex_positions() {
   const planet::TileId id{1, 16, 300, 500};
   return {"planet.directions.tile", planet::kTileCells * planet::kTileCells,
           [id, sink = std::make_shared<Sink>()] {
-            const planet::TileDirections directions(id);
+            const planet::TileValues<dvec3> directions = planet::node_directions(id, 0);
             sink->sum += directions.at(id.first_i() + 7, id.first_j() + 9).x;
           }};
 }

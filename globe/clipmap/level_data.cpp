@@ -8,7 +8,7 @@
 
 #include "globe/clipmap/patch.h"
 #include "globe/clipmap/shading_nodes.h"
-#include "globe/planet/tile_directions.h"
+#include "globe/planet/directions.h"
 
 namespace globe::clipmap {
 namespace {
@@ -45,7 +45,7 @@ PositionGrid exact_positions(const Surface& surface, int level, int d, const Nod
     for (int ti = std::min(rect.i0 / cells, last); ti <= std::min(rect.i1 / cells, last); ++ti) {
       const TileId id{d, level, ti, tj};
       const auto tile = surface.tile(id);
-      const planet::TileDirections directions(id);
+      const planet::TileValues<dvec3> directions = planet::node_directions(id, 0);
       const NodeRect part =
           intersect(rect, {id.first_i(), id.first_i() + cells, id.first_j(), id.first_j() + cells});
       for (int j = part.j0; j <= part.j1; ++j) {

@@ -1,6 +1,7 @@
 #include "globe/planet/directions.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "globe/htm/midpoint.h"
@@ -24,12 +25,14 @@ struct Patch {
   }
 };
 
-/// Walks down the levels: each holds what the one below needs, half as many a side.
+constexpr std::size_t kFew = 16;  ///< so many nodes are walked to one by one
+
+/// Walks up the levels: each holds what the one below needs, half as many a side.
 Patch directions_between(int d, int level, ivec2 first, ivec2 last) {
   Patch patch(first, last);
-  if (level == 0) {
+  if (level == 0 || patch.u.size() <= kFew) {
     for (int j = first.y; j <= last.y; ++j)
-      for (int i = first.x; i <= last.x; ++i) patch.at(i, j) = node_direction({d, 0, i, j});
+      for (int i = first.x; i <= last.x; ++i) patch.at(i, j) = node_direction({d, level, i, j});
     return patch;
   }
   const int n = nodes_per_side(level - 1);
@@ -50,20 +53,22 @@ Patch directions_between(int d, int level, ivec2 first, ivec2 last) {
 
 }  // namespace
 
-TileValues<dvec3> node_directions(const TileId& id) {
+TileValues<dvec3> node_directions(const TileId& id, int guard) {
   const int n = nodes_per_side(id.level);
-  const ivec2 guarded_first{id.first_i() - kTileGuard, id.first_j() - kTileGuard};
-  const ivec2 guarded_last{id.first_i() + id.cells() + kTileGuard, id.first_j() + id.cells() + kTileGuard};
-  Patch patch =
-      directions_between(id.d, id.level, {std::max(guarded_first.x, 0), std::max(guarded_first.y, 0)},
-                         {std::min(guarded_last.x, n), std::min(guarded_last.y, n)});
-  TileValues<dvec3> result(id);
-  for (int j = guarded_first.y; j <= guarded_last.y; ++j) {
-    for (int i = guarded_first.x; i <= guarded_last.x; ++i) {
-      const bool inside = i >= 0 && j >= 0 && i <= n && j <= n;
-      result.at(i, j) = inside ? patch.at(i, j) : node_direction(fold({id.d, id.level, i, j}));
-    }
+  const ivec2 first{id.first_i() - guard, id.first_j() - guard};
+  const ivec2 last{id.first_i() + id.cells() + guard, id.first_j() + id.cells() + guard};
+  const ivec2 own_first{std::max(first.x, 0), std::max(first.y, 0)};
+  const ivec2 own_last{std::min(last.x, n), std::min(last.y, n)};
+  Patch patch = directions_between(id.d, id.level, own_first, own_last);
+  TileValues<dvec3> result(id, dvec3(0.0), guard);
+  if (patch.u.size() == result.values.size()) {
+    result.values = std::move(patch.u);
+    return result;
   }
+  for_each_node(id, guard, [&](int i, int j, const Node& node) {
+    const bool own = i >= 0 && j >= 0 && i <= n && j <= n;
+    result.at(i, j) = own ? patch.at(i, j) : node_direction(node);
+  });
   return result;
 }
 

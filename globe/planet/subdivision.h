@@ -37,20 +37,23 @@ TileId tile_of(const Node& node);
 template <typename T>
 struct TileValues {
   TileId id;
+  int guard;
   std::vector<T> values;
 
-  explicit TileValues(const TileId& tile = {}, T fill = {})
+  explicit TileValues(const TileId& tile = {}, T fill = {}, int guard_nodes = kTileGuard)
       : id(tile),
-        values(static_cast<std::size_t>(tile.stride()) * static_cast<std::size_t>(tile.stride()), fill) {}
+        guard(guard_nodes),
+        values(static_cast<std::size_t>(stride()) * static_cast<std::size_t>(stride()), fill) {}
 
+  int stride() const { return id.cells() + 1 + 2 * guard; }
   std::size_t index(int i, int j) const {
-    return static_cast<std::size_t>(j - id.first_j() + kTileGuard) * static_cast<std::size_t>(id.stride()) +
-           static_cast<std::size_t>(i - id.first_i() + kTileGuard);
+    return static_cast<std::size_t>(j - id.first_j() + guard) * static_cast<std::size_t>(stride()) +
+           static_cast<std::size_t>(i - id.first_i() + guard);
   }
   bool holds(int i, int j) const {
-    const int x = i - id.first_i() + kTileGuard;
-    const int y = j - id.first_j() + kTileGuard;
-    return x >= 0 && y >= 0 && x < id.stride() && y < id.stride();
+    const int x = i - id.first_i() + guard;
+    const int y = j - id.first_j() + guard;
+    return x >= 0 && y >= 0 && x < stride() && y < stride();
   }
   T& at(int i, int j) { return values[index(i, j)]; }
   const T& at(int i, int j) const { return values[index(i, j)]; }
@@ -69,6 +72,18 @@ struct TileValues {
 struct Butterfly {
   ivec2 a, b, c, d, wing_ca, wing_cb, wing_da, wing_db;
 };
+
+/// Visits the plane coordinates (i, j) of a tile and `guard` nodes beyond it with the node each means.
+template <typename Visit>
+void for_each_node(const TileId& id, int guard, const Visit& visit) {
+  const int n = nodes_per_side(id.level);
+  for (int j = id.first_j() - guard; j <= id.first_j() + id.cells() + guard; ++j) {
+    for (int i = id.first_i() - guard; i <= id.first_i() + id.cells() + guard; ++i) {
+      const bool inside = i >= 0 && j >= 0 && i <= n && j <= n;
+      visit(i, j, inside ? Node{id.d, id.level, i, j} : fold({id.d, id.level, i, j}));
+    }
+  }
+}
 
 /// Stencil of the node (i, j) born at a level, in coordinates of the level above it.
 Butterfly butterfly(int i, int j);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "globe/planet/measure.h"
 #include "globe/planet/synthesis.h"
 
 namespace globe::planet {
@@ -14,15 +15,7 @@ namespace {
 
 constexpr int kRootLevel = 6;  ///< 64 cells a side: the finest level that is one tile a diamond
 
-struct Range {
-  int first_i, last_i, first_j, last_j;
-};
-
-Range node_range(const TileId& id, bool own_nodes_only) {
-  const int guard = own_nodes_only ? 0 : kTileGuard;
-  return {id.first_i() - guard, id.first_i() + id.cells() + guard, id.first_j() - guard,
-          id.first_j() + id.cells() + guard};
-}
+int guard_of(bool own_nodes_only) { return own_nodes_only ? 0 : kTileGuard; }
 
 /// Linear light of an sRGB value in [0, 1] (IEC 61966-2-1).
 float linear_from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
@@ -195,7 +188,8 @@ void Surface::finish_tile(SurfaceTile& tile, bool own_nodes_only) const {
   }
   if (level == data_level_) {
     measure_ground(
-        synthesis(), [this](const Node& node) { return measured_height(node); }, own_nodes_only, tile);
+        synthesis(), heights_around(tile, guard_of(own_nodes_only)),
+        [this](const Node& node) { return measured_height(node); }, tile);
   }
 }
 
@@ -206,45 +200,65 @@ double Surface::measured_height(const Node& node) const {
   return static_cast<double>(h);
 }
 
+TileValues<double> Surface::heights_around(const SurfaceTile& tile, int known) const {
+  TileValues<double> around(tile.id, 0.0, known + kMeasureMargin);
+  if (builtin_) {
+    const int cells = tile.id.cells();
+    for_each_node(tile.id, around.guard, [&](int i, int j, const Node& node) {
+      const auto held = [&](int x) { return x >= -known && x <= cells + known; };
+      const bool is_known = held(i - tile.id.first_i()) && held(j - tile.id.first_j());
+      around.at(i, j) = is_known ? tile.height.at(i, j) : measured_height(node);
+    });
+  } else {
+    const std::vector<float> heights = read_nodes("height", tile.id, around.guard);
+    std::copy(heights.begin(), heights.end(), around.values.begin());
+  }
+  return around;
+}
+
 void Surface::read_layer(const char* layer, SurfaceTile& tile, bool own_nodes_only) const {
-  const TileId& id = tile.id;
-  const int n = nodes_per_side(id.level);
+  const int guard = guard_of(own_nodes_only);
+  const std::vector<float> values = read_nodes(layer, tile.id, guard);
   const auto channels = static_cast<std::size_t>(dataset_->layer(layer)->channels);
-  const Range range = node_range(id, own_nodes_only);
-  const auto store = [&](int i, int j, const float* value) {
+  const bool relief = std::strcmp(layer, "relief") == 0;
+  const float* value = values.data();
+  for_each_node(tile.id, guard, [&](int i, int j, const Node&) {
     if (channels == 3) {
       tile.channel(Channel::kRed).at(i, j) = linear_from_srgb(value[0]);
       tile.channel(Channel::kGreen).at(i, j) = linear_from_srgb(value[1]);
       tile.channel(Channel::kBlue).at(i, j) = linear_from_srgb(value[2]);
-    } else if (std::strcmp(layer, "relief") == 0) {
-      tile.relief->at(i, j) = value[0];
     } else {
-      tile.height.at(i, j) = value[0];
+      (relief ? *tile.relief : tile.height).at(i, j) = value[0];
     }
-  };
-  const int i0 = std::max(range.first_i, 0);
-  const int i1 = std::min(range.last_i, n);
-  const int j0 = std::max(range.first_j, 0);
-  const int j1 = std::min(range.last_j, n);
-  const int ni = i1 - i0 + 1;
-  const int nj = j1 - j0 + 1;
-  std::vector<float> values(static_cast<std::size_t>(ni) * static_cast<std::size_t>(nj) * channels);
-  dataset_->read(layer, id.d, id.level, i0, j0, ni, nj, values.data());
-  for (int j = range.first_j; j <= range.last_j; ++j) {
-    for (int i = range.first_i; i <= range.last_i; ++i) {
-      if (i >= i0 && i <= i1 && j >= j0 && j <= j1) {
-        store(i, j,
-              &values[(static_cast<std::size_t>(j - j0) * static_cast<std::size_t>(ni) +
-                       static_cast<std::size_t>(i - i0)) *
-                      channels]);
-      } else {
-        const Node node = fold({id.d, id.level, i, j});
-        std::array<float, 4> one{};
-        dataset_->read(layer, node.d, node.level, node.i, node.j, 1, 1, one.data());
-        store(i, j, one.data());
-      }
+    value += channels;
+  });
+}
+
+std::vector<float> Surface::read_nodes(const char* layer, const TileId& id, int guard) const {
+  const int n = nodes_per_side(id.level);
+  const auto channels = static_cast<std::size_t>(dataset_->layer(layer)->channels);
+  const int i0 = std::max(id.first_i() - guard, 0);
+  const int i1 = std::min(id.first_i() + id.cells() + guard, n);
+  const int j0 = std::max(id.first_j() - guard, 0);
+  const int j1 = std::min(id.first_j() + id.cells() + guard, n);
+  const auto row = static_cast<std::size_t>(i1 - i0 + 1) * channels;
+  std::vector<float> own(row * static_cast<std::size_t>(j1 - j0 + 1));
+  dataset_->read(layer, id.d, id.level, i0, j0, i1 - i0 + 1, j1 - j0 + 1, own.data());
+  const auto stride = static_cast<std::size_t>(id.cells() + 1 + 2 * guard);
+  if (own.size() == stride * stride * channels) return own;
+  std::vector<float> values(stride * stride * channels);
+  float* value = values.data();
+  for_each_node(id, guard, [&](int i, int j, const Node& node) {
+    if (i >= i0 && i <= i1 && j >= j0 && j <= j1) {
+      const float* from =
+          &own[static_cast<std::size_t>(j - j0) * row + static_cast<std::size_t>(i - i0) * channels];
+      std::copy_n(from, channels, value);
+    } else {
+      dataset_->read(layer, node.d, node.level, node.i, node.j, 1, 1, value);
     }
-  }
+    value += channels;
+  });
+  return values;
 }
 
 double Surface::height(const Node& node) const { return tile(tile_of(node))->height.at(node.i, node.j); }

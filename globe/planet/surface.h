@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "globe/geo/ellipsoid.h"
 #include "globe/planet/builtin_planet.h"
@@ -107,6 +108,10 @@ class Surface {
   /// Fills data and synthesised detail into a predicted tile; `own_nodes_only` leaves the guard alone.
   void finish_tile(SurfaceTile& tile, bool own_nodes_only) const;
   void read_layer(const char* layer, SurfaceTile& tile, bool own_nodes_only) const;
+  /// A layer's samples at the nodes of a tile and `guard` nodes beyond, row by row.
+  std::vector<float> read_nodes(const char* layer, const TileId& id, int guard) const;
+  /// Heights of the data around a tile whose own are known as far as `known` nodes beyond it.
+  TileValues<double> heights_around(const SurfaceTile& tile, int known) const;
 
   PlanetInfo info_;
   std::shared_ptr<const Dataset> dataset_;  ///< null for the built-in planet

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 #include "globe/planet/builtin_planet.h"
+#include "globe/planet/relief.h"
 #include "globe/planet/surface.h"
 
 namespace globe::planet {
@@ -27,6 +27,7 @@ struct Synthesis {
   double finest_wave_m() const;
   /// Finest level that is carved; the data level when the data are finer than what is carved.
   int carved_level() const;
+  ReliefScale relief_scale() const;
 };
 
 inline constexpr int kBuiltinLevel = 9;  ///< the built-in planet's own function ends here: cells of 20 km
@@ -39,13 +40,5 @@ void synthesise_detail(const Synthesis& synthesis, bool own_nodes_only, SurfaceT
 
 /// The colour fractal, for tiles of every level.
 void synthesise_mottle(std::uint64_t seed, bool own_nodes_only, SurfaceTile& tile);
-
-/// Height of any node of the data's finest level.
-using HeightOfNode = std::function<double(const Node&)>;
-
-/// Measures the data at their finest level, for what is synthesised below: roughness and slope from a node
-/// and its neighbours, and the carved relief the heights already hold.
-void measure_ground(const Synthesis& synthesis, const HeightOfNode& height_of, bool own_nodes_only,
-                    SurfaceTile& tile);
 
 }  // namespace globe::planet

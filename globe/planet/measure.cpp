@@ -1,0 +1,190 @@
+#include "globe/planet/measure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+
+#include "globe/planet/directions.h"
+#include "globe/planet/relief.h"
+
+namespace globe::planet {
+namespace {
+
+constexpr double kFullRoughness = 0.035;  ///< slope between data nodes where roughness is 1
+constexpr double kRoomForRelief = 900.0;  ///< metres above the sea that relief needs to unfold in full
+
+constexpr std::array<ivec2, 6> kSteps{ivec2{1, 0},  ivec2{0, 1},  ivec2{-1, 1},
+                                      ivec2{-1, 0}, ivec2{0, -1}, ivec2{1, -1}};
+
+/// To a whole number, for |x| < 2^51: sums of such do not depend on their order.
+double whole(double x) {
+  constexpr double kNoFraction = 0x1.8p52;
+  return (x + kNoFraction) - kNoFraction;
+}
+
+/// Square of the slope between two nodes, in whole units of 2^-48.
+double squared_rise(double from, double to, double edge_m) {
+  const double rise = (to - from) / edge_m;
+  return whole(std::min(rise * rise, 4.0) * 0x1p48);
+}
+
+/// From the sum of squared_rise over `count` neighbours.
+float roughness_from(double sum, double count, double h, bool craters) {
+  const double x = std::sqrt(sum * 0x1p-48 / count) / kFullRoughness;
+  const double rough = x == 0.0 ? 0.0 : std::min(1.0, 0.012 + std::sqrt(x * std::sqrt(x)));
+  // Water does not cut below its base level: coastal lowlands stay low however uneven.
+  const double room = h / kRoomForRelief;
+  return static_cast<float>(craters ? rough : std::min(rough, 0.004 + room * room));
+}
+
+/// What a neighbour adds to the slope at u, in whole units of 2^-40.
+dvec3 pull(const dvec3& u, double h, const dvec3& other_u, double other_h, double radius_m) {
+  const dvec3 step = other_u - u;
+  const dvec3 p = step * ((other_h - h) / (radius_m * glm::dot(step, step)) * 0x1p40);
+  return {whole(p.x), whole(p.y), whole(p.z)};
+}
+
+vec3 slope_from(const dvec3& sum, double count) { return vec3(sum * (2.0 * 0x1p-40 / count)); }
+
+/// The data around octahedron corners, node by node.
+class CornerGround {
+ public:
+  CornerGround(const ReliefScale& scale, const HeightOfNode& height_of)
+      : scale_(scale), height_of_(height_of) {}
+
+  float roughness(const Node& node) const {
+    const double h = height_of_(node);
+    double sum = 0.0;
+    const Neighbours around = neighbours(node);
+    for (std::size_t k = 0; k < around.count; ++k)
+      sum += squared_rise(h, height_of_(around.node[k]), scale_.data_edge_m);
+    return roughness_from(sum, static_cast<double>(around.count), h, scale_.craters);
+  }
+
+  /// Height without massifs.
+  double base_height(const Node& node) const {
+    return height_of_(node) -
+           static_cast<double>(massif_relief(scale_, node_direction(node), roughness(node)).height_m);
+  }
+
+  vec3 base_slope(const Node& node) const {
+    const dvec3 u = node_direction(node);
+    const double h = base_height(node);
+    dvec3 sum(0.0);
+    const Neighbours around = neighbours(node);
+    for (std::size_t k = 0; k < around.count; ++k) {
+      const Node& other = around.node[k];
+      sum += pull(u, h, node_direction(other), base_height(other), scale_.radius_m);
+    }
+    return slope_from(sum, static_cast<double>(around.count));
+  }
+
+ private:
+  struct Neighbours {
+    std::array<Node, 6> node;
+    std::size_t count = 0;
+  };
+
+  /// The six neighbours of a node, four at an octahedron corner.
+  static Neighbours neighbours(const Node& node) {
+    Neighbours found;
+    for (const ivec2 step : kSteps) {
+      const Node other = fold({node.d, node.level, node.i + step.x, node.j + step.y});
+      const auto end = found.node.begin() + static_cast<std::ptrdiff_t>(found.count);
+      const auto same = [&](const Node& known) { return octahedral_key(known) == octahedral_key(other); };
+      if (!is_corner(node) || std::none_of(found.node.begin(), end, same)) found.node[found.count++] = other;
+    }
+    return found;
+  }
+
+  const ReliefScale& scale_;
+  const HeightOfNode& height_of_;
+};
+
+/// True where the six nodes around a plane coordinate may not be the neighbours of the node it means: at
+/// octahedron corners, and behind them.
+bool near_corner(const TileId& id, int reach, int i, int j) {
+  const int n = nodes_per_side(id.level);
+  const bool i_edge = i <= 0 || i >= n;
+  const bool j_edge = j <= 0 || j >= n;
+  const auto near = [&](int x) { return std::min(std::abs(x), std::abs(x - n)) <= reach; };
+  if (i > 0 && j > 0 && i < n && j < n) return false;
+  if (i >= 0 && j >= 0 && i <= n && j <= n) return i_edge && j_edge;
+  return near(i) && near(j);
+}
+
+class TileGround {
+ public:
+  TileGround(const Synthesis& synthesis, const TileValues<double>& height, const HeightOfNode& height_of)
+      : scale_(synthesis.relief_scale()),
+        height_(height),
+        corners_(scale_, height_of),
+        directions_(node_directions(height.id, height.guard - 1)),
+        roughness_(height.id, 0.0f, height.guard - 1),
+        base_height_(height.id, 0.0, height.guard - 1) {
+    for_each_node(height.id, roughness_.guard, [&](int i, int j, const Node& node) {
+      roughness_.at(i, j) =
+          near_corner(node_tile(), height_.guard, i, j) ? corners_.roughness(node) : roughness(i, j);
+      base_height_.at(i, j) =
+          height_.at(i, j) -
+          static_cast<double>(massif_relief(scale_, directions_.at(i, j), roughness_.at(i, j)).height_m);
+    });
+  }
+
+  void write(bool carved, SurfaceTile& tile) const {
+    for_each_node(tile.id, height_.guard - kMeasureMargin, [&](int i, int j, const Node& node) {
+      const float rough = roughness_.at(i, j);
+      tile.channel(Channel::kRoughness).at(i, j) = rough;
+      if (!carved) return;
+      const vec3 slope =
+          near_corner(node_tile(), height_.guard, i, j) ? corners_.base_slope(node) : base_slope(i, j);
+      tile.channel(Channel::kSlopeX).at(i, j) = slope.x;
+      tile.channel(Channel::kSlopeY).at(i, j) = slope.y;
+      tile.channel(Channel::kSlopeZ).at(i, j) = slope.z;
+      const ReliefSample r = carved_relief(scale_, directions_.at(i, j), rough, slope);
+      tile.channel(Channel::kCarved).at(i, j) = r.height_m;
+      tile.channel(Channel::kProminence).at(i, j) = r.prominence;
+    });
+  }
+
+ private:
+  const TileId& node_tile() const { return height_.id; }
+
+  float roughness(int i, int j) const {
+    const double h = height_.at(i, j);
+    double sum = 0.0;
+    for (const ivec2 step : kSteps)
+      sum += squared_rise(h, height_.at(i + step.x, j + step.y), scale_.data_edge_m);
+    return roughness_from(sum, 6.0, h, scale_.craters);
+  }
+
+  vec3 base_slope(int i, int j) const {
+    const dvec3& u = directions_.at(i, j);
+    const double h = base_height_.at(i, j);
+    dvec3 sum(0.0);
+    for (const ivec2 step : kSteps) {
+      sum += pull(u, h, directions_.at(i + step.x, j + step.y), base_height_.at(i + step.x, j + step.y),
+                  scale_.radius_m);
+    }
+    return slope_from(sum, 6.0);
+  }
+
+  ReliefScale scale_;
+  const TileValues<double>& height_;
+  CornerGround corners_;
+  TileValues<dvec3> directions_;
+  TileValues<float> roughness_;
+  TileValues<double> base_height_;  ///< without massifs
+};
+
+}  // namespace
+
+void measure_ground(const Synthesis& synthesis, const TileValues<double>& height,
+                    const HeightOfNode& height_of, SurfaceTile& tile) {
+  TileGround(synthesis, height, height_of).write(synthesis.carved_level() > synthesis.data_level, tile);
+}
+
+}  // namespace globe::planet
