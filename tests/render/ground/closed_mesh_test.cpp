@@ -131,6 +131,7 @@ std::size_t moved_by_the_other_program(const globe::gl::ShaderReader& reader) {
     const auto first = probe.triangles(camera, 0.0f, MeshProbe::Space::kClip);
     const auto second = probe.triangles(camera, 0.0f, MeshProbe::Space::kClip, true);
     for (std::size_t k = 0; k < first.size(); ++k) {
+      if (first[k].node.level == settings.base_level) continue;  // never drawn by another program
       moved += std::memcmp(&first[k].seen, &second[k].seen, sizeof(glm::vec4)) == 0 ? 0 : 1;
     }
     if (!hard::full() && &place - views::hard_places().data() == 3) break;

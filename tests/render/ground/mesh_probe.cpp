@@ -28,8 +28,10 @@ globe::gl::Program probe_program(Kind kind, const globe::gl::ShaderReader& reade
   return globe::gl::Program(sources);
 }
 
-bool on_rim(int rim, int m, int a, int b) {
-  return ((rim & 1) != 0 && a + b == m) || ((rim & 2) != 0 && a == 0) || ((rim & 4) != 0 && b == 0);
+bool on_rim(const Batch& batch, int m, int a, int b) {
+  return ((batch.rim & 1) != 0 && a + b == m) || ((batch.rim & 2) != 0 && a == 0) ||
+         ((batch.rim & 4) != 0 && b == 0) || ((batch.rim_corners & 1) != 0 && a + b == 0) ||
+         ((batch.rim_corners & 2) != 0 && a == m) || ((batch.rim_corners & 4) != 0 && b == m);
 }
 
 }  // namespace
@@ -66,6 +68,7 @@ std::vector<ProbeVertex> MeshProbe::triangles(const Camera& camera, float fade, 
   slots.upload(0, list.slots.data(), list.slots.size() * sizeof(globe::render::SlotBlock));
   slots.bind_base(GL_UNIFORM_BUFFER, 1);
   textures_.bind();
+  nowhere_.bind();
   glEnable(GL_RASTERIZER_DISCARD);
   const globe::clipmap::MorphBand band = globe::clipmap::morph_band(settings_);
   std::vector<ProbeVertex> result;
@@ -94,7 +97,7 @@ std::vector<ProbeVertex> MeshProbe::triangles(const Camera& camera, float fade, 
     program.use();
     program.set(0, glm::ivec4(settings_.window(), band.begin, band.end, settings_.m));
     program.set(1, glm::vec2(1.0f));
-    if (kind == Kind::kRim) program.set(2, batch.rim);
+    if (kind == Kind::kRim) program.set(2, batch.rim | batch.rim_corners << 3);
     const std::size_t count = order.size() * batch.instances.size();
     const Buffer recorded(count * sizeof(glm::vec4));
     recorded.bind_base(GL_TRANSFORM_FEEDBACK_BUFFER, 0);
@@ -112,7 +115,7 @@ std::vector<ProbeVertex> MeshProbe::triangles(const Camera& camera, float fade, 
       result.push_back(
           {positions[k],
            {d, level, rect.i0 + instance.x + instance.z * a, rect.j0 + instance.y + instance.z * b},
-           on_rim(batch.rim, settings_.m, a, b),
+           on_rim(batch, settings_.m, a, b),
            batch.kind});
     }
   }

@@ -7,6 +7,7 @@
 
 #include "globe/clipmap/patch.h"
 #include "globe/gl/buffer.h"
+#include "globe/gl/framebuffer.h"
 #include "globe/gl/program.h"
 #include "globe/gl/vertex_array.h"
 #include "globe/render/draw_list.h"
@@ -51,6 +52,7 @@ class MeshProbe {
   globe::clipmap::Settings settings_;
   globe::clipmap::PatchMesh mesh_;
   globe::gl::Buffer vertices_;
+  globe::gl::Framebuffer nowhere_{1, 1};  ///< drawing wants one, though nothing is rasterised
   std::array<globe::gl::Program, 3> programs_;
   globe::render::ClipmapTextures textures_;
   std::shared_ptr<const globe::clipmap::ClipmapState> state_;

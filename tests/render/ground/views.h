@@ -71,7 +71,12 @@ inline double mid_fade_height(const globe::clipmap::Settings& settings, const Su
   return surface.root_edge() * settings.s / std::exp2(level + 0.25);
 }
 
-/// A sun on the planet's far side: ground in view is black, and whatever is not shows the background.
-inline dvec3 midnight(const Camera& camera) { return -glm::normalize(camera.position); }
+/// A sun on the planet's far side, not quite opposite: ground in view is black, and what is not shows the
+/// background.
+inline dvec3 midnight(const Camera& camera) {
+  const dvec3 up = glm::normalize(camera.position);
+  const dvec3 aside = glm::normalize(glm::cross(up, dvec3(0.3, 0.5, 0.8)));
+  return -up * 0.866 + aside * 0.5;
+}
 
 }  // namespace views
