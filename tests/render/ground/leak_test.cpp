@@ -110,8 +110,7 @@ Leaks leaks_looking_down(const Detail& detail, std::size_t heights_a_place, std:
 }
 
 TEST_P(H16, NoBackgroundShowsThroughTheGroundFromAbove) {
-  const Leaks sum =
-      leaks_looking_down(GetParam(), hard::full() ? 50 : 10, views::hard_places().size());
+  const Leaks sum = leaks_looking_down(GetParam(), hard::full() ? 50 : 10, views::hard_places().size());
   hard::report("H16",
                "background seen through ground, straight down, detail " + std::to_string(GetParam().detail) +
                    ", " + std::to_string(GetParam().samples) + " samples, " + std::to_string(sum.cameras) +
