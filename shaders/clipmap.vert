@@ -23,7 +23,7 @@ layout(location = 1) in ivec4 instance;  // corner 0 from the window's first nod
 
 layout(location = 0) uniform ivec4 window;       // texels of the torus, morph begin, morph end, m
 layout(location = 1) uniform vec2 shading_scale; // texture coordinate a cell
-layout(location = 2) uniform int rim;            // edges whose vertices are the coarser level's
+layout(location = 2) uniform int rim;            // bits 0-2: edges whose vertices are the coarser level's, 3-5: corners
 
 out Shading {
   vec3 lit;         // sun along the normal, t1, t2
@@ -43,7 +43,8 @@ invariant gl_Position;
 
 #ifdef RIM
 bool on_rim(ivec2 ab) {
-  return ((rim & 1) != 0 && ab.x + ab.y == window.w) || ((rim & 2) != 0 && ab.x == 0) || ((rim & 4) != 0 && ab.y == 0);
+  return ((rim & 1) != 0 && ab.x + ab.y == window.w) || ((rim & 2) != 0 && ab.x == 0) || ((rim & 4) != 0 && ab.y == 0) ||
+         ((rim & 8) != 0 && ab == ivec2(0)) || ((rim & 16) != 0 && ab.x == window.w) || ((rim & 32) != 0 && ab.y == window.w);
 }
 #endif
 

@@ -28,6 +28,11 @@ std::size_t at(const NodeRect& rect, int i, int j) {
          static_cast<std::size_t>(i - rect.i0);
 }
 
+/// Height at which ground is drawn: the sea's surface where it lies under one.
+double drawn_height(const Surface& surface, double solid) {
+  return surface.has_sea() ? std::max(solid, 0.0) : solid;
+}
+
 /// Positions of a rectangle of nodes, ECEF metres from the anchor in double, with the drawn height in w.
 struct PositionGrid {
   NodeRect rect;
@@ -40,7 +45,6 @@ PositionGrid exact_positions(const Surface& surface, int level, int d, const Nod
   grid.values.resize(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()));
   const int cells = std::min(kTileCells, planet::nodes_per_side(level));
   const int last = planet::nodes_per_side(level) / cells - 1;
-  const bool sea = surface.has_sea();
   for (int tj = std::min(rect.j0 / cells, last); tj <= std::min(rect.j1 / cells, last); ++tj) {
     for (int ti = std::min(rect.i0 / cells, last); ti <= std::min(rect.i1 / cells, last); ++ti) {
       const TileId id{d, level, ti, tj};
@@ -50,8 +54,7 @@ PositionGrid exact_positions(const Surface& surface, int level, int d, const Nod
           intersect(rect, {id.first_i(), id.first_i() + cells, id.first_j(), id.first_j() + cells});
       for (int j = part.j0; j <= part.j1; ++j) {
         for (int i = part.i0; i <= part.i1; ++i) {
-          const double solid = tile->height.at(i, j);
-          const double h = sea ? std::max(solid, 0.0) : solid;
+          const double h = drawn_height(surface, tile->height.at(i, j));
           const dvec3& u = directions.at(i, j);
           grid.values[at(rect, i, j)] =
               glm::dvec4(geo::ecef_from_normal(surface.ellipsoid(), u, h) - anchor, h);
@@ -138,7 +141,8 @@ dvec3 level_anchor(const Settings& settings, const Surface& surface, const Regio
   } else {
     return dvec3(0.0);  // the whole sphere: its centre
   }
-  return geo::ecef_from_normal(surface.ellipsoid(), planet::node_direction(node), surface.height(node));
+  return geo::ecef_from_normal(surface.ellipsoid(), planet::node_direction(node),
+                               drawn_height(surface, surface.height(node)));
 }
 
 dvec3 shading_axis(int d) {

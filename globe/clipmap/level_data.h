@@ -57,8 +57,8 @@ struct LevelUpdate {
   std::size_t upload_bytes() const;
 };
 
-/// Shared origin of a level's offsets: the ground at the node nearest to the region's centre on the lattice
-/// of the largest power of two up to 2s cells.
+/// Shared origin of a level's offsets: the drawn ground at the node nearest to the region's centre on the
+/// lattice of the largest power of two up to 2s cells.
 dvec3 level_anchor(const Settings& settings, const planet::Surface& surface, const Region& region);
 
 /// Computes what a level needs for `region`: only nodes that `before` (null: nothing) does not hold, unless

@@ -110,6 +110,39 @@ Region make_region(const Settings& settings, const GridPoint& nadir_of_level) {
   return region;
 }
 
+namespace {
+
+/// Corner of a patch as a vertex, the same from every diamond.
+std::array<int, 3> vertex_of(const Region& region, const LatticeTrixel& trixel, std::size_t corner, int m) {
+  const ivec2 node = trixel.corners()[corner] * m;
+  const auto key = planet::octahedral_key({trixel.d, region.level, node.x, node.y});
+  return {key.x, key.y, key.z};
+}
+
+bool ends_rim_edge(const Patch& patch, std::size_t corner) { return (patch.rim & ~(1 << corner)) != 0; }
+
+/// A vertex on the rim is the coarser level's for every patch around it, not only for those with an edge
+/// there.
+void mark_rim_corners(const Region& region, int m, std::vector<Patch>& ring) {
+  std::vector<std::array<int, 3>> rim;
+  for (const Patch& patch : ring) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      if (ends_rim_edge(patch, corner)) rim.push_back(vertex_of(region, patch.trixel, corner, m));
+    }
+  }
+  std::sort(rim.begin(), rim.end());
+  for (Patch& patch : ring) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      if (!ends_rim_edge(patch, corner) &&
+          std::binary_search(rim.begin(), rim.end(), vertex_of(region, patch.trixel, corner, m))) {
+        patch.rim_corners |= 1 << corner;
+      }
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<Patch> make_ring(const Settings& settings, const Region& region, const Region* finer_region) {
   std::vector<Patch> ring;
   const int n = nodes_per_side(region.level) / settings.m;
@@ -118,7 +151,7 @@ std::vector<Patch> make_ring(const Settings& settings, const Region& region, con
     for (const LatticeTrixel& trixel : finer(unit)) {
       // A patch of m cells is a trixel of 2m cells of the next level: the very unit that region is made of.
       if (finer_region != nullptr && finer_region->holds(trixel)) continue;
-      Patch patch{trixel, 0};
+      Patch patch{trixel};
       if (has_rim) {
         const auto neighbours = across(trixel, n);
         for (std::size_t edge = 0; edge < 3; ++edge) {
@@ -128,6 +161,7 @@ std::vector<Patch> make_ring(const Settings& settings, const Region& region, con
       ring.push_back(patch);
     }
   }
+  if (has_rim) mark_rim_corners(region, settings.m, ring);
   return ring;
 }
 

@@ -58,11 +58,13 @@ struct Region {
 /// Region of a level for a camera above `u`. At the base level the whole sphere.
 Region make_region(const Settings& settings, const GridPoint& nadir_of_level);
 
-/// A patch to draw: a trixel of m cells, and which of its edges (opposite to corner 0, 1, 2: bits 0, 1, 2)
-/// lie on the outer rim of its region.
+/// A patch to draw: a trixel of m cells, which of its edges (opposite to corner 0, 1, 2: bits 0, 1, 2) lie on
+/// the outer rim of its region, and which corners (0, 1, 2: bits 0, 1, 2) touch the rim though none of the
+/// patch's own rim edges ends there.
 struct Patch {
   LatticeTrixel trixel;
   int rim = 0;
+  int rim_corners = 0;
 };
 
 /// Ring l: A_l without A_(l+1), in whole patches. `finer` is null for the finest level.

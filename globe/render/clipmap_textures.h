@@ -27,6 +27,11 @@ class ClipmapTextures {
   /// Binds positions, coarse positions, albedo and normals to units 0 to 3.
   void bind() const;
 
+  const gl::Texture& positions() const { return positions_; }
+  const gl::Texture& coarse() const { return coarse_; }
+  const gl::Texture& albedo() const { return albedo_; }
+  const gl::Texture& normals() const { return normals_; }
+
   std::size_t bytes() const;
   std::size_t layer_bytes() const;
   int layers() const { return positions_.layers(); }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <map>
+#include <tuple>
 
 #include "globe/clipmap/morph.h"
 
@@ -60,13 +62,7 @@ DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::Clipma
                         const ClipmapTextures& textures, const geo::Ellipsoid& ellipsoid, double lowest_m,
                         const Camera& camera, int finest, float fade, bool cull) {
   DrawList list;
-  std::array<std::array<Batch, 8>, 3> batches;
-  for (std::size_t kind = 0; kind < 3; ++kind) {
-    for (int rim = 0; rim < 8; ++rim) {
-      batches[kind][static_cast<std::size_t>(rim)].kind = static_cast<Kind>(kind);
-      batches[kind][static_cast<std::size_t>(rim)].rim = rim;
-    }
-  }
+  std::map<std::tuple<Kind, int, int>, Batch> batches;
   const Levels levels{settings, state};
   const clipmap::MorphBand band = clipmap::morph_band(settings);
   const clipmap::Frustum frustum(camera.forward, camera.right, camera.up, camera.tan_x(), camera.tan_y());
@@ -126,21 +122,21 @@ DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::Clipma
       if (level > settings.base_level) {
         const bool fading = level == finest && fade > 0.0f;
         if (fading || !is_unmorphed(images[d], patch.trixel, settings.m, band.begin)) kind = Kind::kMorphing;
-        if (patch.rim != 0) kind = Kind::kRim;
+        if ((patch.rim | patch.rim_corners) != 0) kind = Kind::kRim;
       }
       const NodeRect& rect = data.vertices[d];
       const int half = patch.trixel.half;
-      batches[static_cast<std::size_t>(kind)][static_cast<std::size_t>(kind == Kind::kRim ? patch.rim : 0)]
-          .instances.emplace_back((patch.trixel.i + half) * settings.m - rect.i0,
-                                  (patch.trixel.j + half) * settings.m - rect.j0, half == 0 ? 1 : -1,
-                                  slot_of[static_cast<std::size_t>(level - settings.base_level)][d]);
+      const bool rim = kind == Kind::kRim;
+      Batch& batch = batches[{kind, rim ? patch.rim : 0, rim ? patch.rim_corners : 0}];
+      batch.instances.emplace_back((patch.trixel.i + half) * settings.m - rect.i0,
+                                   (patch.trixel.j + half) * settings.m - rect.j0, half == 0 ? 1 : -1,
+                                   slot_of[static_cast<std::size_t>(level - settings.base_level)][d]);
       ++list.patches;
     }
   }
-  for (auto& of_kind : batches) {
-    for (Batch& batch : of_kind) {
-      if (!batch.instances.empty()) list.batches.push_back(std::move(batch));
-    }
+  for (auto& [name, batch] : batches) {
+    std::tie(batch.kind, batch.rim, batch.rim_corners) = name;
+    list.batches.push_back(std::move(batch));
   }
   return list;
 }

@@ -31,7 +31,8 @@ enum class Kind { kPlain, kMorphing, kRim };
 /// Patches of one kind and rim variant: one instanced draw.
 struct Batch {
   Kind kind = Kind::kPlain;
-  int rim = 0;
+  int rim = 0;                        ///< edges on the rim: which index list
+  int rim_corners = 0;                ///< corners that touch it
   std::vector<glm::ivec4> instances;  ///< corner 0 from the window's first node (i, j), ±1 for the half, slot
 };
 

@@ -308,7 +308,7 @@ void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay)
       }
       bound = &program;
     }
-    if (batch.kind == Kind::kRim) program.set(2, batch.rim);
+    if (batch.kind == Kind::kRim) program.set(2, batch.rim | batch.rim_corners << 3);
     const auto rim = static_cast<std::size_t>(batch.rim);
     glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(mesh_.indices[rim].size()),
                                         GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(index_offset_[rim]),

@@ -1,0 +1,214 @@
+// H24: the same camera, the same bytes. H18: however the windows were filled. Frames that do not wait;
+// memory.
+
+#include <tbb/global_control.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "tests/hard/directions.h"
+#include "tests/hard/table.h"
+#include "tests/render/ground/views.h"
+
+namespace {
+
+using globe::clipmap::Settings;
+using globe::gl::Framebuffer;
+using globe::render::ClipmapTextures;
+using globe::render::FrameStats;
+using views::Camera;
+using views::dvec3;
+using views::GlobeRenderer;
+using views::Place;
+using views::RenderSettings;
+
+using Bytes = std::vector<std::uint8_t>;
+
+RenderSettings full_settings() {
+  RenderSettings settings;
+  settings.clipmap = Settings::for_detail(16, 2);
+  return settings;
+}
+
+Bytes picture_of(GlobeRenderer& renderer, const Camera& camera, const Framebuffer& picture) {
+  renderer.draw(camera, glm::normalize(dvec3(camera.position) + 3e6), true, picture);
+  return picture.read_rgba8();
+}
+
+std::vector<Camera> tour(const GlobeRenderer& renderer, std::size_t count) {
+  std::vector<Camera> cameras;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Place& place = views::hard_places()[k * 7 % views::hard_places().size()];
+    const double above = 3.0 * std::pow(1e6, static_cast<double>(k * 5 % count) / static_cast<double>(count));
+    cameras.push_back(views::camera_above(renderer, *views::builtin_planet(), place, above, 50.0 * double(k),
+                                          -15.0 - 7.0 * static_cast<double>(k % 8)));
+  }
+  return cameras;
+}
+
+std::size_t different(const Bytes& a, const Bytes& b) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) count += a[k] == b[k] ? 0 : 1;
+  return count;
+}
+
+TEST_F(GlTest, H24TheSameCameraGivesTheSameBytes) {
+  const auto surface = views::builtin_planet();
+  const Framebuffer picture(320, 180);
+  GlobeRenderer travelled(surface, full_settings());
+  std::size_t twice = 0, back = 0, one_thread = 0, pictures = 0;
+  for (const Camera& camera : tour(travelled, hard::full() ? 24 : 8)) {
+    const Bytes first = picture_of(travelled, camera, picture);
+    twice += different(first, picture_of(travelled, camera, picture));
+    GlobeRenderer fresh(surface, full_settings());
+    back += different(first, picture_of(fresh, camera, picture));
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    GlobeRenderer alone(views::Surface::builtin(1), full_settings());
+    one_thread += different(first, picture_of(alone, camera, picture));
+    ++pictures;
+  }
+  const std::string of = ", " + std::to_string(pictures) + " pictures";
+  hard::report("H24", "bytes that differ between two frames of one camera" + of, "0", std::to_string(twice));
+  hard::report("H24", "bytes that differ after flying elsewhere and back, against a fresh renderer" + of, "0",
+               std::to_string(back));
+  hard::report("H24", "bytes that differ with one thread and a planet made anew" + of, "0",
+               std::to_string(one_thread));
+  EXPECT_EQ(twice, 0u);
+  EXPECT_EQ(back, 0u);
+  EXPECT_EQ(one_thread, 0u);
+}
+
+/// Texels of a state's resident nodes, of all layers, in the order of the nodes.
+template <class T>
+std::vector<T> resident(const globe::gl::Texture& texture, const globe::clipmap::NodeRect& rect, int layer) {
+  const auto all = texture.read<T>({0, 0, texture.width(), texture.height(), layer});
+  std::vector<T> texels;
+  const auto wrapped = [](int x, int n) { return (x % n + n) % n; };
+  for (int j = rect.j0; j <= rect.j1; ++j) {
+    for (int i = rect.i0; i <= rect.i1; ++i) {
+      texels.push_back(
+          all[static_cast<std::size_t>(wrapped(j, texture.height())) * std::size_t(texture.width()) +
+              static_cast<std::size_t>(wrapped(i, texture.width()))]);
+    }
+  }
+  return texels;
+}
+
+std::size_t differing_texels(const globe::clipmap::ClipmapState& state, const ClipmapTextures& a,
+                             const ClipmapTextures& b, std::size_t& looked_at) {
+  std::size_t count = 0;
+  const auto compare = [&](const auto& x, const auto& y) {
+    looked_at += x.size();
+    for (std::size_t k = 0; k < x.size(); ++k) count += x[k] == y[k] ? 0 : 1;
+  };
+  for (const auto& level : state.levels) {
+    for (int d = 0; d < globe::planet::kDiamonds; ++d) {
+      const auto k = static_cast<std::size_t>(d);
+      if (level->vertices[k].empty()) continue;
+      const int la = a.layer(level->region.level, d), lb = b.layer(level->region.level, d);
+      compare(resident<glm::vec4>(a.positions(), level->vertices[k], la),
+              resident<glm::vec4>(b.positions(), level->vertices[k], lb));
+      compare(resident<glm::vec4>(a.coarse(), level->vertices[k], la),
+              resident<glm::vec4>(b.coarse(), level->vertices[k], lb));
+      compare(resident<glm::u8vec4>(a.albedo(), level->shading[k], la),
+              resident<glm::u8vec4>(b.albedo(), level->shading[k], lb));
+      compare(resident<glm::u16vec2>(a.normals(), level->shading[k], la),
+              resident<glm::u16vec2>(b.normals(), level->shading[k], lb));
+    }
+  }
+  return count;
+}
+
+TEST_F(GlTest, H18WindowsAfterAnyWalkHoldWhatARefillWould) {
+  const auto surface = views::builtin_planet();
+  const Settings settings = Settings::for_detail(16, 1);
+  std::mt19937_64 random(18);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::size_t different_texels = 0, texels = 0, moves = 0;
+  for (const Place& place : views::hard_places()) {
+    ClipmapTextures walked(settings);
+    std::shared_ptr<const globe::clipmap::ClipmapState> state;
+    dvec3 u = globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg);
+    for (std::size_t k = 0; k < (hard::full() ? 40u : 8u); ++k, ++moves) {
+      // steps of a cell of some level, in places far beyond every window
+      const double reach = std::exp2(-22.0 * unit(random));
+      u = glm::normalize(u + hard::random_direction(random) * (k % 5 == 4 ? 0.7 : reach));
+      if (k % 4 == 2) u = globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg);
+      const globe::clipmap::Target target{u, settings.base_level + 3 + static_cast<int>(random() % 14)};
+      auto update = globe::clipmap::advance(settings, *surface, target, state.get());
+      walked.apply(update);
+      state = update.state;
+      ClipmapTextures fresh(settings);
+      const auto refill = globe::clipmap::advance(settings, *surface, target, nullptr);
+      fresh.apply(refill);
+      for (std::size_t l = 0; l < state->levels.size(); ++l) {
+        EXPECT_EQ(state->levels[l]->anchor, refill.state->levels[l]->anchor);
+        EXPECT_EQ(state->levels[l]->vertices, refill.state->levels[l]->vertices);
+        EXPECT_EQ(state->levels[l]->shading, refill.state->levels[l]->shading);
+      }
+      if (k % 4 == 3 || k + 1 == 8) different_texels += differing_texels(*state, walked, fresh, texels);
+    }
+  }
+  hard::report("H18",
+               "texels that differ from a refill after walks of " + std::to_string(moves) + " moves, " +
+                   std::to_string(texels),
+               "0", std::to_string(different_texels));
+  EXPECT_EQ(different_texels, 0u);
+}
+
+TEST_F(GlTest, AFrameThatDoesNotWaitSettlesToThePictureOfOneThatDoes) {
+  const auto surface = views::builtin_planet();
+  const Framebuffer picture(320, 180);
+  GlobeRenderer streaming(surface, full_settings());
+  const auto cameras = tour(streaming, 6);
+  std::size_t frames_behind = 0, different_bytes = 0;
+  const dvec3 sun = glm::normalize(dvec3(1, 2, 0.5));
+  bool seen_behind = false;
+  streaming.draw(cameras.front(), sun, false, picture);
+  for (const Camera& camera : cameras) {
+    FrameStats stats = streaming.draw(camera, sun, false, picture);
+    seen_behind = seen_behind || !stats.complete;
+    int frames = 0;
+    for (; !stats.complete && frames < 5000; ++frames) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      stats = streaming.draw(camera, sun, false, picture);
+      ++frames_behind;
+    }
+    EXPECT_TRUE(stats.complete);
+    for (int fading = 0; fading < 12; ++fading) streaming.draw(camera, sun, false, picture);
+    const Bytes settled = picture.read_rgba8();
+    GlobeRenderer waiting(surface, full_settings());
+    waiting.draw(camera, sun, true, picture);
+    different_bytes += different(settled, picture.read_rgba8());
+  }
+  hard::report("loading",
+               "bytes that differ once frames without --wait have settled, " +
+                   std::to_string(cameras.size()) + " cameras, " + std::to_string(frames_behind) +
+                   " frames drawn while loading",
+               "0", std::to_string(different_bytes));
+  EXPECT_TRUE(seen_behind);
+  EXPECT_EQ(different_bytes, 0u);
+}
+
+TEST_F(GlTest, ClipmapMemoryIsWhatItsFormulaSays) {
+  const auto surface = views::builtin_planet();
+  const Framebuffer picture(64, 36);
+  RenderSettings settings = full_settings();
+  GlobeRenderer renderer(surface, settings);
+  const auto w = static_cast<std::size_t>(settings.clipmap.window());
+  const std::size_t shading = w << settings.clipmap.shading_levels;
+  const std::size_t layer = 2 * 16 * w * w + 8 * shading * shading;
+  std::size_t most = 0;
+  for (const Camera& camera : tour(renderer, 10)) {
+    renderer.draw(camera, dvec3(1, 0, 0), true, picture);
+    EXPECT_EQ(renderer.gpu_layer_bytes(), layer);
+    EXPECT_EQ(renderer.gpu_bytes(), layer * static_cast<std::size_t>(renderer.gpu_layers()));
+    most = std::max(most, renderer.gpu_bytes());
+  }
+  hard::report("memory",
+               "bytes of the clipmap's textures in a flight, detail 16, against layers * (32 w^2 + 8 (4w)^2)",
+               "equal", std::to_string(most) + " B in " + std::to_string(renderer.gpu_layers()) + " layers");
+}
+
+}  // namespace
