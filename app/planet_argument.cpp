@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <cstdio>
 
 #include "globe/base/error.h"
 
@@ -28,6 +29,18 @@ std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& pla
     return Surface::builtin(seed);
   }
   return Surface::from_dataset(std::make_shared<const Dataset>(Dataset::open(planet, kDatasetCache)));
+}
+
+void require_heights(const globe::planet::Surface& surface, const std::string& planet) {
+  if (!surface.has_heights()) {
+    throw globe::Error(planet, "the planet has no heights", "convert it again with a height map");
+  }
+}
+
+void warn_of_unknown_datum(const globe::planet::Surface& surface, const std::string& planet) {
+  if (surface.info().vertical_datum != "unknown") return;
+  std::fprintf(stderr, "globe: warning: %s: what its heights count from is unknown; taken as the ellipsoid\n",
+               planet.c_str());
 }
 
 }  // namespace app
