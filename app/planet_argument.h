@@ -1,11 +1,16 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "globe/planet/surface.h"
 
 namespace app {
+
+/// The seed of `procedural[:SEED]`, nothing for other names. Throws globe::UsageError.
+std::optional<std::uint64_t> procedural_seed(const std::string& planet);
 
 /// Opens PLANET: `procedural[:SEED]` or a folder made by `globe convert`. Throws globe::Error or UsageError.
 std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& planet);
