@@ -12,6 +12,7 @@ namespace app {
 void add_commands(CLI::App& program, int& exit_status);
 
 void add_lookup(CLI::App& program, int& exit_status);
+void add_height(CLI::App& program, int& exit_status);
 void add_trixel(CLI::App& program, int& exit_status);
 
 /// The words after the program's name, last first, as CLI::App::parse takes them. A word such as "-.5,12",

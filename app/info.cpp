@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "app/planet_argument.h"
 #include "globe/base/error.h"
 #include "globe/planet/dataset.h"
 #include "globe/planet/planet_file.h"
@@ -13,6 +14,8 @@ namespace app {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr double kBuiltinRelief = 9000.0;  ///< metres, up and down: where the built-in planet stays
 
 struct Arguments {
   std::string planet;
@@ -73,11 +76,29 @@ void print_text(const ordered_json& info) {
     std::printf("credit     %s\n", credit.get<std::string>().c_str());
 }
 
+/// The built-in planet as a planet file would describe it: one layer, computed, within the relief it
+/// promises.
+globe::planet::PlanetFile builtin_file(const std::string& planet) {
+  const auto surface = open_planet(planet);
+  globe::planet::PlanetFile file;
+  file.info = surface->info();
+  globe::planet::StoredLayer heights;
+  heights.info = {"height", surface->data_level(), 1, "computed", -kBuiltinRelief, kBuiltinRelief};
+  file.layers.push_back(heights);
+  return file;
+}
+
+globe::planet::PlanetFile described(const std::string& planet) {
+  if (procedural_seed(planet)) return builtin_file(planet);
+  globe::planet::Dataset::open(planet, 0);  // every file whole, or one clear line
+  return globe::planet::read_planet_file(planet);
+}
+
 void info(const Arguments& arguments, int& exit_status) {
-  // `procedural[:SEED]` is to be answered here, before the name is taken for a folder.
-  globe::planet::Dataset::open(arguments.planet, 0);  // every file whole, or one clear line
-  ordered_json json = to_json(globe::planet::read_planet_file(arguments.planet));
-  if (arguments.verify) {
+  ordered_json json = to_json(described(arguments.planet));
+  if (arguments.verify && procedural_seed(arguments.planet)) {
+    json["damage"] = ordered_json::array();
+  } else if (arguments.verify) {
     json["damage"] = globe::planet::find_damage(arguments.planet);
     if (!json["damage"].empty()) exit_status = 1;
   }
@@ -100,7 +121,8 @@ void add_info(CLI::App& program, int& exit_status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       program.add_subcommand("info", "What a planet is made of: ellipsoid, layers, ranges, credits");
-  command->add_option("planet", arguments->planet, "a planet folder")->required();
+  command->add_option("planet", arguments->planet, "folder made by globe convert, or procedural[:SEED]")
+      ->required();
   command->add_flag("--verify", arguments->verify, "compare every file with its checksum");
   command->add_flag("--json", arguments->json, "one JSON object");
   command->callback([arguments, &exit_status] { info(*arguments, exit_status); });

@@ -4,11 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/planet_argument.h"
 #include "app/point.h"
 #include "app/records.h"
 #include "globe/geo/ellipsoid.h"
 #include "globe/htm/trixel.h"
 #include "globe/planet/cell.h"
+#include "globe/planet/interpolation.h"
 
 namespace app {
 namespace {
@@ -26,24 +28,38 @@ struct Place {
   double lat_deg, lon_deg;
   globe::htm::Trixel trixel;
   globe::planet::Cell cell;
+  std::optional<double> height_m;  ///< with a PLANET: its data at their finest, linear in the trixel
   globe::geo::dvec3 ecef_m;
 };
 
-Place place_of(const Point& point, int level, const std::optional<int>& precision) {
+/// @param surface  null without a PLANET
+Place place_of(const Point& point, int level, const globe::planet::Surface* surface,
+               const std::optional<int>& precision) {
   const auto& at = point.position;
   const auto u = globe::geo::normal_from_degrees(at.lat_deg, at.lon_deg);
   const auto trixel = globe::htm::trixel_at(u, level);
-  return {shown(at.lat_deg, precision), shown_longitude(at.lon_deg, precision), trixel,
-          globe::planet::cell_from_trixel(trixel),
-          globe::geo::ecef_from_normal(globe::geo::kWgs84, u, at.h_m)};
+  const auto& ellipsoid = surface ? surface->ellipsoid() : globe::geo::kWgs84;
+  Place place{shown(at.lat_deg, precision),
+              shown_longitude(at.lon_deg, precision),
+              trixel,
+              globe::planet::cell_from_trixel(trixel),
+              std::nullopt,
+              globe::geo::ecef_from_normal(ellipsoid, u, at.h_m)};
+  if (surface) {
+    place.height_m =
+        height_at(*surface, u, surface->data_level(), globe::planet::Interpolation::kLinear).height_m;
+  }
+  return place;
 }
 
-/// UTM or UPS to the millimetre and MGRS to the metre.
+/// UTM or UPS to the millimetre and MGRS to the metre; empty off the WGS84 ellipsoid, where they mean
+/// nothing.
 struct GridNames {
   std::string utm, mgrs;
 };
 
-GridNames grid_names(const Point& point) {
+GridNames grid_names(const Point& point, const globe::geo::Ellipsoid& ellipsoid) {
+  if (ellipsoid != globe::geo::kWgs84) return {};
   const GeographicLib::GeoCoords coords(point.position.lat_deg, point.position.lon_deg);
   return {coords.UTMUPSRepresentation(3), coords.MGRSRepresentation(0)};
 }
@@ -54,6 +70,7 @@ std::string text_line(const Place& place, const std::optional<int>& precision) {
                      ' ' + std::to_string(level) + ' ' + std::to_string(place.trixel.id) + ' ' +
                      globe::htm::name(place.trixel);
   for (const int number : {d, i, j}) line += ' ' + std::to_string(number);
+  if (place.height_m) line += ' ' + number_text(*place.height_m, precision);
   return line;
 }
 
@@ -74,26 +91,38 @@ std::string json_line(const Place& place, const GridNames& names, const std::opt
   object["diamond"] = place.cell.d;
   object["i"] = place.cell.i;
   object["j"] = place.cell.j;
+  if (place.height_m) object["height_m"] = shown(*place.height_m, precision);
   object["ecef_m"] = {shown(place.ecef_m.x, precision), shown(place.ecef_m.y, precision),
                       shown(place.ecef_m.z, precision)};
-  object["utm"] = names.utm;
-  object["mgrs"] = names.mgrs;
+  const auto text_or_null = [](const std::string& text) {
+    return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
+  };
+  object["utm"] = text_or_null(names.utm);
+  object["mgrs"] = text_or_null(names.mgrs);
   return object.dump();
 }
 
 int run(Lookup lookup) {
-  // A PLANET's own level and ellipsoid and the height at the point enter here.
-  take_planet(lookup.operands);
+  const std::optional<std::string> planet = take_planet(lookup.operands);
+  std::shared_ptr<const globe::planet::Surface> surface;
+  if (planet) {
+    surface = open_planet(*planet);
+    require_heights(*surface, *planet);
+    warn_of_unknown_datum(*surface, *planet);
+  }
   const RecordOptions& records = lookup.records;
+  const int level = lookup.level.value_or(surface ? surface->data_level() : kDefaultLevel);
+  const auto& ellipsoid = surface ? surface->ellipsoid() : globe::geo::kWgs84;
   const auto answer = [&](const std::string& record) {
     const Point point = parse_point(record);
-    const Place place = place_of(point, lookup.level.value_or(kDefaultLevel), records.precision);
-    if (records.json) return json_line(place, grid_names(point), records.precision);
-    if (records.csv) return csv_line(place, grid_names(point), records.precision);
+    const Place place = place_of(point, level, surface.get(), records.precision);
+    if (records.json) return json_line(place, grid_names(point, ellipsoid), records.precision);
+    if (records.csv) return csv_line(place, grid_names(point, ellipsoid), records.precision);
     return text_line(place, records.precision);
   };
-  return answer_records(lookup.operands, records,
-                        "lat,lon,level,id,name,diamond,i,j,ecef_x_m,ecef_y_m,ecef_z_m,utm,mgrs", answer);
+  const std::string header = std::string("lat,lon,level,id,name,diamond,i,j") + (surface ? ",height_m" : "") +
+                             ",ecef_x_m,ecef_y_m,ecef_z_m,utm,mgrs";
+  return answer_records(lookup.operands, records, header, answer);
 }
 
 }  // namespace
@@ -108,7 +137,9 @@ void add_lookup(CLI::App& program, int& exit_status) {
       ->check(CLI::Range(0, globe::htm::kMaxLevel));
   add_record_options(*command, lookup->records);
   command->footer(
-      "Text: LAT LON LEVEL ID NAME DIAMOND I J.  Example: globe lookup --level 14 \"50.0875 14.4213\"");
+      "Text: LAT LON LEVEL ID NAME DIAMOND I J, with a PLANET also HEIGHT_M, that of globe height without\n"
+      "--level. ECEF is on the planet's ellipsoid (WGS84 without one), at the point's ALT or 0.\n"
+      "Example: globe lookup --level 14 \"50.0875 14.4213\"");
   command->callback([lookup, &exit_status] { exit_status = run(*lookup); });
 }
 

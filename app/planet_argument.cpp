@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <cstdint>
+#include <cstdio>
+#include <string_view>
 
 #include "globe/base/error.h"
 
@@ -13,21 +15,38 @@ constexpr std::size_t kDatasetCache = std::size_t{256} << 20;
 
 }  // namespace
 
+std::optional<std::uint64_t> procedural_seed(const std::string& planet) {
+  constexpr std::string_view kName = "procedural";
+  if (!planet.starts_with(kName)) return std::nullopt;
+  if (planet == kName) return kDefaultSeed;
+  std::uint64_t seed = 0;
+  const char* last = planet.data() + planet.size();
+  const char* first = planet[kName.size()] == ':' ? planet.data() + kName.size() + 1 : last;
+  const auto [end, error] = std::from_chars(first, last, seed);
+  if (first == last || end != last || error != std::errc()) {
+    throw globe::UsageError(planet, "the seed is not a whole number below 2^64",
+                            "write procedural or procedural:7");
+  }
+  return seed;
+}
+
 std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& planet) {
   using globe::planet::Dataset;
   using globe::planet::Surface;
-  if (planet.rfind("procedural", 0) == 0) {
-    if (planet == "procedural") return Surface::builtin(kDefaultSeed);
-    std::uint64_t seed = 0;
-    const char* first = planet.data() + 11;
-    const char* last = planet.data() + planet.size();
-    const bool has_seed = planet.size() > 11 && planet[10] == ':';
-    if (!has_seed || std::from_chars(first, last, seed).ptr != last) {
-      throw globe::UsageError(planet, "the seed is not a whole number", "write procedural or procedural:7");
-    }
-    return Surface::builtin(seed);
-  }
+  if (const auto seed = procedural_seed(planet)) return Surface::builtin(*seed);
   return Surface::from_dataset(std::make_shared<const Dataset>(Dataset::open(planet, kDatasetCache)));
+}
+
+void require_heights(const globe::planet::Surface& surface, const std::string& planet) {
+  if (!surface.has_heights()) {
+    throw globe::Error(planet, "the planet has no heights", "convert it again with a height map");
+  }
+}
+
+void warn_of_unknown_datum(const globe::planet::Surface& surface, const std::string& planet) {
+  if (surface.info().vertical_datum != "unknown") return;
+  std::fprintf(stderr, "globe: warning: %s: what its heights count from is unknown; taken as the ellipsoid\n",
+               planet.c_str());
 }
 
 }  // namespace app

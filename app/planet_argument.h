@@ -1,13 +1,24 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "globe/planet/surface.h"
 
 namespace app {
 
+/// The seed of `procedural[:SEED]`, nothing for other names. Throws globe::UsageError.
+std::optional<std::uint64_t> procedural_seed(const std::string& planet);
+
 /// Opens PLANET: `procedural[:SEED]` or a folder made by `globe convert`. Throws globe::Error or UsageError.
 std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& planet);
+
+/// Throws globe::Error when the planet was made of a colour map alone.
+void require_heights(const globe::planet::Surface& surface, const std::string& planet);
+
+/// One line on standard error when planet.json does not say what heights count from (COMMANDS.md, Heights).
+void warn_of_unknown_datum(const globe::planet::Surface& surface, const std::string& planet);
 
 }  // namespace app

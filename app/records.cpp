@@ -163,9 +163,7 @@ std::optional<std::string> take_planet(std::vector<std::string>& operands) {
   if (operands.empty()) return std::nullopt;
   const std::string word = operands.front();
   std::error_code ignored;
-  if (!word.starts_with("procedural") &&
-      !std::filesystem::exists(std::filesystem::path(word) / "planet.json", ignored))
-    return std::nullopt;
+  if (!word.starts_with("procedural") && !std::filesystem::is_directory(word, ignored)) return std::nullopt;
   operands.erase(operands.begin());
   return word;
 }

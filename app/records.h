@@ -42,7 +42,7 @@ double shown(double value, std::optional<int> precision);
 double shown_longitude(double lon_deg, std::optional<int> precision);
 
 /// Takes the PLANET from the front of the operands: a word that starts with "procedural" or names a folder
-/// with planet.json in it.
+/// (whether it is a planet is found out when it is opened).
 std::optional<std::string> take_planet(std::vector<std::string>& operands);
 
 }  // namespace app

@@ -179,7 +179,7 @@ void Surface::finish_tile(SurfaceTile& tile, bool own_nodes_only) const {
   }
   if (builtin_) {
     synthesise_builtin(*builtin_, own_nodes_only, tile);
-  } else {
+  } else if (has_heights()) {
     read_layer("height", tile, own_nodes_only);
     if (level < data_level_ && dataset_->layer("relief") != nullptr) {
       tile.relief.emplace(tile.id);
@@ -195,6 +195,7 @@ void Surface::finish_tile(SurfaceTile& tile, bool own_nodes_only) const {
 
 double Surface::measured_height(const Node& node) const {
   if (builtin_) return builtin_->at(node_direction(node)).height_m;
+  if (!has_heights()) return 0.0;
   float h = 0.0f;
   dataset_->read("height", node.d, node.level, node.i, node.j, 1, 1, &h);
   return static_cast<double>(h);
@@ -261,7 +262,10 @@ std::vector<float> Surface::read_nodes(const char* layer, const TileId& id, int 
   return values;
 }
 
-double Surface::height(const Node& node) const { return tile(tile_of(node))->height.at(node.i, node.j); }
+double Surface::height(const Node& node) const {
+  if (dataset_ && node.level <= data_level_) return measured_height(node);
+  return tile(tile_of(node))->height.at(node.i, node.j);
+}
 
 double Surface::height(const dvec3& u, int level) const {
   const Place place = locate(u, level);

@@ -79,6 +79,10 @@ class Surface {
   /// Finest level with measured heights (built-in planet: with its own function); what is finer is
   /// synthesised.
   int data_level() const { return data_level_; }
+  /// True for a planet made of maps; what the built-in planet has is all synthesised.
+  bool has_data() const { return dataset_ != nullptr; }
+  /// False for a planet made of a colour map alone, whose ground is at height 0 down to level 0.
+  bool has_heights() const { return dataset_ == nullptr || dataset_->layer("height") != nullptr; }
   bool has_colors() const { return color_level_ >= 0; }
   /// True when ground below height 0 lies under a sea, which is then drawn as a flat surface at height 0.
   bool is_airless() const { return info_.body == "moon"; }
@@ -100,7 +104,7 @@ class Surface {
 
   std::shared_ptr<const SurfaceTile> make_tile(const TileId& id) const;
   void make_roots();
-  /// Height of a node of the data's finest level, from the data alone.
+  /// Height of a node of the data's finest level or a coarser one, from the data alone.
   double measured_height(const Node& node) const;
   Synthesis synthesis() const;
   /// Channels that tiles of a level take over from their parents; the others start at 0.

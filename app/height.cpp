@@ -1,0 +1,120 @@
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/planet_argument.h"
+#include "app/point.h"
+#include "app/records.h"
+#include "globe/base/error.h"
+#include "globe/htm/trixel.h"
+#include "globe/planet/interpolation.h"
+
+namespace app {
+namespace {
+
+using globe::planet::Interpolation;
+
+const std::map<std::string, Interpolation> kInterpolations{{"nearest", Interpolation::kNearest},
+                                                           {"linear", Interpolation::kLinear},
+                                                           {"cubic", Interpolation::kCubic}};
+
+struct HeightOptions {
+  std::string planet;
+  std::vector<std::string> points;
+  std::optional<int> level;
+  std::string interpolation = "linear";
+  RecordOptions records;
+};
+
+/// What one point is answered.
+struct Answer {
+  double lat_deg, lon_deg;
+  int level;
+  double height_m;
+  const char* source;             ///< "data" or "synthesised"
+  std::optional<double> error_m;  ///< none where the ground is synthesised
+  std::string datum;
+};
+
+std::string fields(const Answer& answer, const std::optional<int>& precision, char separator,
+                   const std::string& unknown) {
+  std::string line = number_text(answer.lat_deg, precision) + separator +
+                     number_text(answer.lon_deg, precision) + separator + std::to_string(answer.level) +
+                     separator + number_text(answer.height_m, precision) + separator + answer.source +
+                     separator;
+  line += answer.error_m ? number_text(*answer.error_m, precision) : unknown;
+  return line + separator + answer.datum;
+}
+
+std::string json_line(const Answer& answer, const std::optional<int>& precision) {
+  nlohmann::ordered_json object;
+  object["lat"] = answer.lat_deg;
+  object["lon"] = answer.lon_deg;
+  object["level"] = answer.level;
+  object["height_m"] = shown(answer.height_m, precision);
+  object["source"] = answer.source;
+  object["error_m"] = nullptr;
+  if (answer.error_m) object["error_m"] = shown(*answer.error_m, precision);
+  object["datum"] = answer.datum;
+  return object.dump();
+}
+
+int run(const HeightOptions& options) {
+  const auto surface = open_planet(options.planet);
+  require_heights(*surface, options.planet);
+  warn_of_unknown_datum(*surface, options.planet);
+  const Interpolation interpolation = kInterpolations.at(options.interpolation);
+  const int level = options.level.value_or(surface->data_level());
+  const bool measured = surface->has_data() && level <= surface->data_level();
+  const auto& precision = options.records.precision;
+  const auto answer = [&](const std::string& record) {
+    const auto at = parse_point(record).position;
+    const auto u = globe::geo::normal_from_degrees(at.lat_deg, at.lon_deg);
+    const auto height = globe::planet::height_at(*surface, u, level, interpolation);
+    Answer result{shown(at.lat_deg, precision),
+                  shown_longitude(at.lon_deg, precision),
+                  level,
+                  height.height_m,
+                  measured ? "data" : "synthesised",
+                  std::nullopt,
+                  surface->info().vertical_datum};
+    if (measured)
+      result.error_m = interpolation == Interpolation::kNearest ? height.spread_m : 0.5 * height.spread_m;
+    if (options.records.json) return json_line(result, precision);
+    return options.records.csv ? fields(result, precision, ',', "") : fields(result, precision, ' ', "-");
+  };
+  return answer_records(options.points, options.records, "lat,lon,level,height_m,source,error_m,datum",
+                        answer);
+}
+
+}  // namespace
+
+void add_height(CLI::App& program, int& exit_status) {
+  auto options = std::make_shared<HeightOptions>();
+  CLI::App* command = program.add_subcommand("height", "the height of the ground at each point");
+  command->add_option("PLANET", options->planet, "folder made by globe convert, or procedural[:SEED]")
+      ->required();
+  command->add_option("POINT", options->points,
+                      "\"LAT LON\" or LAT,LON each; without points: one a line from standard input");
+  command
+      ->add_option("--level", options->level,
+                   "HTM level (default: the data at their finest; procedural: the level of its own relief)")
+      ->check(CLI::Range(0, globe::htm::kMaxLevel));
+  command
+      ->add_option("--interpolation", options->interpolation,
+                   "between the nodes; cubic is clamped to the range of the nodes it is made of")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"nearest", "linear", "cubic"}));
+  add_record_options(*command, options->records);
+  command->footer(
+      "Text: LAT LON LEVEL HEIGHT_M SOURCE ERROR_M DATUM.  An ALT is not looked at.\n"
+      "SOURCE is data, or synthesised: levels finer than the data add made-up detail, and procedural has no\n"
+      "data at all.  ERROR_M tells how well the samples bound the ground between them: half the difference\n"
+      "between the highest and the lowest corner of the trixel (all of it for nearest).  It says nothing of\n"
+      "errors in the map itself; - (null) where the ground is synthesised.\n"
+      "Example: globe height my-planet --json \"27.99 86.92\"");
+  command->callback([options, &exit_status] { exit_status = run(*options); });
+}
+
+}  // namespace app
