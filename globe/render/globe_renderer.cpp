@@ -187,7 +187,7 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
                                  camera, settings_.clipmap.base_level, 0.0f, true);
   std::vector<Batch> batches;
   for (const Kind kind : {Kind::kPlain, Kind::kMorphing, Kind::kRim}) {
-    batches.push_back({kind, kind == Kind::kRim ? 1 : 0, {list.batches.front().instances.front()}});
+    batches.push_back({kind, kind == Kind::kRim ? 1 : 0, 0, {list.batches.front().instances.front()}});
   }
   list.batches = std::move(batches);
   FrameStats ignored;
