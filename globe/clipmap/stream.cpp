@@ -1,7 +1,12 @@
 #include "globe/clipmap/stream.h"
 
+#include <sys/resource.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <thread>
 #include <utility>
 
 namespace globe::clipmap {
@@ -9,6 +14,7 @@ namespace {
 
 constexpr double kStepCost = 1.5;  ///< levels filled from nothing in one step, strips counted by their share
 constexpr double kStripCost = 0.15;
+constexpr int kNiceness = 5;
 
 /// Rough share of a level's region that stays when its nadir moves to a point.
 double share_kept(const Settings& settings, const LevelData& held, const GridPoint& point) {
@@ -110,6 +116,9 @@ int Stream::pending() const {
 }
 
 void Stream::work(const std::stop_token& stop) {
+  // Drawing comes first: half the cores, and this thread gives way (on Linux niceness is a thread's own).
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
+  tbb::task_arena arena(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2));
   for (;;) {
     Job job;
     {
@@ -121,7 +130,8 @@ void Stream::work(const std::stop_token& stop) {
     std::optional<StateUpdate> result;
     std::exception_ptr failure;
     try {
-      result = advance(settings_, *surface_, job.target, job.before.get(), Stride::kStep);
+      arena.execute(
+          [&] { result = advance(settings_, *surface_, job.target, job.before.get(), Stride::kStep); });
     } catch (...) {
       failure = std::current_exception();
     }
