@@ -110,6 +110,7 @@ Interval median_interval(std::vector<double> values) {
 
 std::vector<BenchmarkResult> run_interleaved(std::vector<Benchmark>& benchmarks, int rounds) {
   std::vector<BenchmarkResult> results;
+  results.reserve(benchmarks.size());
   for (const Benchmark& benchmark : benchmarks) results.push_back({benchmark.name, benchmark.items, {}});
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t k = 0; k < benchmarks.size(); ++k) {

@@ -37,6 +37,7 @@ std::vector<globe::geo::Geodetic> random_places() {
 
 std::vector<dvec3> normals_of(const std::vector<globe::geo::Geodetic>& places) {
   std::vector<dvec3> normals;
+  normals.reserve(places.size());
   for (const auto& place : places)
     normals.push_back(globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg));
   return normals;

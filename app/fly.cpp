@@ -166,7 +166,8 @@ void run(const FlyOptions& options) {
 
   renderer.warm_up(target);
   geo::Geodetic start;
-  renderer.draw(flight.camera(0.0, view, static_cast<double>(size.width) / size.height, start), sun, true, target);
+  renderer.draw(flight.camera(0.0, view, static_cast<double>(size.width) / size.height, start), sun, true,
+                target);
   globe::gl::TimerQuery timer = globe::gl::TimerQuery::create();
   const double aspect = static_cast<double>(size.width) / size.height;
   for (int k = 0; k < options.frames; ++k) {

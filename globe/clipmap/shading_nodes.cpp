@@ -108,7 +108,7 @@ glm::u16vec2 encode_normal(const glm::dvec2& slope) {
 }
 
 std::uint8_t encode_albedo(float linear) {
-  return static_cast<std::uint8_t>(std::sqrt(std::clamp(linear, 0.0f, 1.0f)) * 255.0f + 0.5f);
+  return static_cast<std::uint8_t>(std::lrint(std::sqrt(std::clamp(linear, 0.0f, 1.0f)) * 255.0f));
 }
 
 /// How much of the sea floor's relief is seen through the water above it.

@@ -310,10 +310,10 @@ void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay)
     }
     if (batch.kind == Kind::kRim) program.set(2, batch.rim | batch.rim_corners << 3);
     const auto rim = static_cast<std::size_t>(batch.rim);
-    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(mesh_.indices[rim].size()),
-                                        GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(index_offset_[rim]),
-                                        static_cast<GLsizei>(batch.instances.size()),
-                                        static_cast<GLuint>(first));
+    glDrawElementsInstancedBaseInstance(
+        GL_TRIANGLES, static_cast<GLsizei>(mesh_.indices[rim].size()), GL_UNSIGNED_SHORT,
+        static_cast<const char*>(nullptr) + index_offset_[rim], static_cast<GLsizei>(batch.instances.size()),
+        static_cast<GLuint>(first));
     first += batch.instances.size();
   }
 }

@@ -7,8 +7,8 @@
 namespace globe::scene {
 namespace {
 
-constexpr double kRho = 1.4;         ///< trade of zooming against panning; van Wijk and Nuij's users liked 1.42
-constexpr double kEase = 0.15;       ///< share of the time spent accelerating, and braking
+constexpr double kRho = 1.4;    ///< trade of zooming against panning; van Wijk and Nuij's users liked 1.42
+constexpr double kEase = 0.15;  ///< share of the time spent accelerating, and braking
 constexpr double kTiltBegins = 250;  ///< times the final height: higher up the camera looks straight down
 
 /// Integral of smoothstep from 0 to x, x in [0, 1].
@@ -39,8 +39,8 @@ double pitch_for_height(double height_m, double final_height_m, double final_pit
   return final_pitch_deg + (-90.0 - final_pitch_deg) * t;
 }
 
-FlightPath::FlightPath(const glm::dvec3& from, double from_height, const glm::dvec3& to, double to_height, double radius,
-                       double heading_deg, double pitch_deg)
+FlightPath::FlightPath(const glm::dvec3& from, double from_height, const glm::dvec3& to, double to_height,
+                       double radius, double heading_deg, double pitch_deg)
     : from_(from),
       toward_(track_direction(from, to)),
       from_height_(from_height),
