@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "globe/planet/subdivision.h"
+
 namespace globe::planet {
 namespace {
 
@@ -30,13 +32,23 @@ double clamped_spline(const std::array<double, 4>& p, double t) {
   return std::clamp(value, *low, *high);
 }
 
+/// The node that a plane coordinate within one of the diamond means. A line along the diamond's border goes
+/// on straight through an octahedron corner, seen from whichever side, where `fold` would turn off.
+Node continued(const Node& plane) {
+  const int n = nodes_per_side(plane.level);
+  const Node corner{plane.d, plane.level, std::clamp(plane.i, 0, n), std::clamp(plane.j, 0, n)};
+  const bool one_outside = (corner.i != plane.i) != (corner.j != plane.j);
+  if (!one_outside || !is_corner(corner)) return fold(plane);
+  return opposite_neighbour(corner, {plane.d, plane.level, 2 * corner.i - plane.i, 2 * corner.j - plane.j});
+}
+
 double cubic(const Surface& surface, const Place& place, const Node& cell) {
   std::array<double, 4> rows{};
   for (int dj = -1; dj <= 2; ++dj) {
     std::array<double, 4> row{};
     for (int di = -1; di <= 2; ++di) {
       row[static_cast<std::size_t>(di + 1)] =
-          surface.height(fold({cell.d, cell.level, cell.i + di, cell.j + dj}));
+          surface.height(continued({cell.d, cell.level, cell.i + di, cell.j + dj}));
     }
     rows[static_cast<std::size_t>(dj + 1)] = clamped_spline(row, place.ij.x - cell.i);
   }

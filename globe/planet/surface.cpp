@@ -61,12 +61,11 @@ Surface::Surface(PlanetInfo info, std::shared_ptr<const Dataset> dataset, std::u
     builtin_.emplace(seed);
     data_level_ = kBuiltinLevel;
   }
-  make_roots();
 }
 
 double Surface::root_edge() const { return ellipsoid().mean_radius() * std::numbers::pi / 2.0; }
 
-void Surface::make_roots() {
+void Surface::make_roots() const {
   for (int level = 0; level <= kRootLevel; ++level) {
     std::vector<SurfaceTile> tiles;
     for (int d = 0; d < kDiamonds; ++d) tiles.emplace_back(TileId{d, level, 0, 0});
@@ -111,6 +110,7 @@ void Surface::make_roots() {
 }
 
 std::shared_ptr<const SurfaceTile> Surface::tile(const TileId& id) const {
+  std::call_once(roots_made_, [this] { make_roots(); });
   if (id.level <= kRootLevel)
     return roots_[static_cast<std::size_t>(id.level)][static_cast<std::size_t>(id.d)];
   {
@@ -263,7 +263,7 @@ std::vector<float> Surface::read_nodes(const char* layer, const TileId& id, int 
 }
 
 double Surface::height(const Node& node) const {
-  if (dataset_ && node.level <= data_level_) return measured_height(node);
+  if (node.level <= data_level_) return measured_height(node);
   return tile(tile_of(node))->height.at(node.i, node.j);
 }
 

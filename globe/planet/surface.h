@@ -69,7 +69,7 @@ class Surface {
 
   std::shared_ptr<const SurfaceTile> tile(const TileId& id) const;
 
-  /// Height of a node, metres above the ellipsoid.
+  /// Height of a node, metres above the ellipsoid; down to the data level it costs no tile.
   double height(const Node& node) const;
   /// Height of the flat level-L trixel above a direction: linear between its three nodes.
   double height(const dvec3& u, int level) const;
@@ -103,7 +103,7 @@ class Surface {
   };
 
   std::shared_ptr<const SurfaceTile> make_tile(const TileId& id) const;
-  void make_roots();
+  void make_roots() const;
   /// Height of a node of the data's finest level or a coarser one, from the data alone.
   double measured_height(const Node& node) const;
   Synthesis synthesis() const;
@@ -123,8 +123,9 @@ class Surface {
   std::optional<BuiltinPlanet> builtin_;  ///< where there is no data set
   int data_level_ = 0;
   int color_level_ = -1;
-  std::array<std::array<std::shared_ptr<const SurfaceTile>, kDiamonds>, 7>
-      roots_;  ///< levels 0 to 6, always held
+  mutable std::once_flag roots_made_;
+  mutable std::array<std::array<std::shared_ptr<const SurfaceTile>, kDiamonds>, 7>
+      roots_;  ///< levels 0 to 6, made at the first need of a tile, then held
 
   std::size_t cache_bytes_;
   mutable std::mutex mutex_;

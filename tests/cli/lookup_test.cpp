@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/cli/make_planet.h"
 #include "tests/cli/run_program.h"
 
 namespace {
@@ -215,9 +216,29 @@ TEST(Lookup, AnswersBeforeTheNextQuestionComes) {
   EXPECT_EQ(globe.ask("-10 10").substr(0, 6), "-10 10");
 }
 
-TEST(Lookup, TakesAPlanetAsItsFirstOperand) {
-  EXPECT_EQ(run_program({"lookup", "procedural", "1 2"}).out, run_program({"lookup", "1 2"}).out);
-  EXPECT_EQ(run_program({"lookup", "procedural:7"}, "1 2\n").out, run_program({"lookup", "1 2"}).out);
+TEST(Lookup, TakesLevelAndHeightFromAPlanet) {
+  const json answer = json::parse(run_program({"lookup", "procedural", "--json", "1 2"}).out);
+  EXPECT_EQ(answer["level"], 9);
+  EXPECT_EQ(answer["id"], json::parse(run_program({"lookup", "--level", "9", "--json", "1 2"}).out)["id"]);
+  EXPECT_EQ(answer["height_m"],
+            json::parse(run_program({"height", "procedural", "--json", "1 2"}).out)["height_m"]);
+  EXPECT_TRUE(answer["utm"].is_string());
+  EXPECT_EQ(json::parse(run_program({"lookup", "procedural", "--level", "4", "--json", "1 2"}).out)["level"],
+            4);
+  const auto lines = run_program({"lookup", "procedural:7", "--csv"}, "1 2\n").lines();
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0], "lat,lon,level,id,name,diamond,i,j,height_m,ecef_x_m,ecef_y_m,ecef_z_m,utm,mgrs");
+  EXPECT_EQ(std::count(lines[0].begin(), lines[0].end(), ','),
+            std::count(lines[1].begin(), lines[1].end(), ','));
+}
+
+TEST(Lookup, PutsPlacesOnThePlanetsEllipsoidAndNamesNoGridsOffTheEarth) {
+  const tests::TemporaryFolder folder;
+  const std::string moon = cli::make_planet(folder.path(), {"--ellipsoid", "moon"});
+  const json answer = json::parse(run_program({"lookup", moon, "--json", "0 0 100"}).out);
+  EXPECT_EQ(answer["ecef_m"][0].get<double>(), 1737500.0);
+  EXPECT_TRUE(answer["utm"].is_null());
+  EXPECT_TRUE(answer["mgrs"].is_null());
 }
 
 TEST(Lookup, SaysWhenItsOutputCannotBeWritten) {
