@@ -25,19 +25,24 @@ struct Frustum {
   bool sees(const dvec3& centre, double radius) const;
 };
 
-/// What the planet's own body hides. The occluder is the sphere inscribed in everything drawn: never larger
-/// than the ground, so nothing visible is culled.
+/// What the planet's own body hides. The occluder is an ellipsoid of the planet's shape inside everything
+/// drawn, so nothing visible is culled; in space scaled until it is the unit sphere the horizon is a circle.
 class Horizon {
  public:
   /// @param lowest_m  a height above the ellipsoid that nothing drawn lies below, metres
   Horizon(const geo::Ellipsoid& ellipsoid, double lowest_m, const dvec3& camera_ecef);
 
-  /// False only when a sphere (centre in ECEF metres) lies wholly behind the horizon.
-  bool sees(const dvec3& centre, double radius) const;
+  /// False only when what lies in a sphere (centre in ECEF metres) and no higher above the ellipsoid than
+  /// `highest_m` is wholly behind the horizon.
+  bool sees(const dvec3& centre, double radius, double highest_m) const;
 
  private:
-  double occluder_;      ///< radius, metres
-  dvec3 to_camera_;      ///< unit
+  dvec3 scale_;      ///< from ECEF metres to the space in which the occluder is the unit sphere
+  double widest_;    ///< the largest of scale_
+  double shortest_;  ///< axes of the ellipsoid, metres
+  double longest_;
+  dvec3 to_camera_;  ///< unit, there
+  double camera_distance_;
   double camera_angle_;  ///< from the camera's vertical to its horizon; negative: inside the occluder,
                          ///< everything is seen
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "globe/clipmap/patch.h"
 #include "globe/clipmap/shading_nodes.h"
@@ -103,21 +104,40 @@ PatchBounds bound_patch(const Settings& settings, const LevelData& data, const P
   glm::vec3 high(std::numeric_limits<float>::lowest());
   const auto position = [&](int a, int b) {
     const ivec2 node = patch_node(patch.trixel, settings.m, a, b);
-    return glm::vec3(data.positions[d][at(data.vertices[d], node.x, node.y)]);
+    return data.positions[d][at(data.vertices[d], node.x, node.y)];
   };
+  float highest = std::numeric_limits<float>::lowest();
   for (int b = 0; b <= settings.m; ++b) {
     for (int a = 0; a + b <= settings.m; ++a) {
-      low = glm::min(low, position(a, b));
-      high = glm::max(high, position(a, b));
+      const glm::vec4 vertex = position(a, b);
+      low = glm::min(low, glm::vec3(vertex));
+      high = glm::max(high, glm::vec3(vertex));
+      highest = std::max(highest, vertex.w);
     }
   }
-  PatchBounds bounds{(low + high) * 0.5f, 0.0f};
+  PatchBounds bounds{(low + high) * 0.5f, 0.0f, highest};
   for (int b = 0; b <= settings.m; ++b) {
     for (int a = 0; a + b <= settings.m; ++a) {
-      bounds.radius = std::max(bounds.radius, glm::distance(bounds.centre, position(a, b)));
+      bounds.radius = std::max(bounds.radius, glm::distance(bounds.centre, glm::vec3(position(a, b))));
     }
   }
   return bounds;  // morphed vertices lie between these positions, hence inside
+}
+
+/// How far the flat triangles of a level lie below the ellipsoid between their corners, metres: the square of
+/// the largest circumcircle's radius over 2R. The largest edge, at a face's middle, is 1.56 times 2^-level of
+/// a root's.
+double sag(const Surface& surface, int level) {
+  const double circumradius = std::ldexp(1.56 / std::sqrt(3.0) * surface.root_edge(), -level);
+  return circumradius * circumradius / (2.0 * std::min(surface.ellipsoid().a, surface.ellipsoid().b()));
+}
+
+double lowest_vertex(const LevelData& data) {
+  float lowest = std::numeric_limits<float>::max();
+  for (const auto& diamond : data.positions) {
+    for (const glm::vec4& position : diamond) lowest = std::min(lowest, position.w);
+  }
+  return static_cast<double>(lowest);
 }
 
 }  // namespace
@@ -217,6 +237,7 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
             [](const Patch& a, const Patch& b) { return a.trixel < b.trixel; });
   data->bounds.reserve(data->patches.size());
   for (const Patch& patch : data->patches) data->bounds.push_back(bound_patch(settings, *data, patch));
+  data->lowest_m = lowest_vertex(*data) - sag(surface, level);
   update.data = std::move(data);
   return update;
 }

@@ -31,10 +31,12 @@ struct ShadingBlock {
   std::vector<glm::u16vec2> normal;  ///< normal's components along the shading frame, [-1, 1] as unorm16
 };
 
-/// Sphere around everything a patch can be drawn as, metres from the level's anchor.
+/// Sphere around everything a patch can be drawn as, metres from the level's anchor, and how high above the
+/// ellipsoid that reaches.
 struct PatchBounds {
   glm::vec3 centre{0.0f};
   float radius = 0;
+  float highest = 0;
 };
 
 /// What is resident of one level: CPU side of its windows. Immutable once made; the next one is made from it.
@@ -46,6 +48,7 @@ struct LevelData {
   std::array<std::vector<glm::vec4>, planet::kDiamonds> positions;  ///< of `vertices`, as uploaded
   std::vector<Patch> patches;       ///< every patch of the region, sorted by trixel, rim marked
   std::vector<PatchBounds> bounds;  ///< of `patches`
+  double lowest_m = 0;              ///< height that no triangle between `positions` lies below
 };
 
 /// A new state of a level and what has to be uploaded to get there from the one before.

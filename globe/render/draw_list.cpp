@@ -59,13 +59,16 @@ bool is_unmorphed(const std::vector<LatticePoint>& images, const LatticeTrixel& 
 }  // namespace
 
 DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::ClipmapState& state,
-                        const ClipmapTextures& textures, const geo::Ellipsoid& ellipsoid, double lowest_m,
+                        const ClipmapTextures& textures, const geo::Ellipsoid& ellipsoid,
                         const Camera& camera, int finest, float fade, bool cull) {
   DrawList list;
   std::map<std::tuple<Kind, int, int>, Batch> batches;
   const Levels levels{settings, state};
   const clipmap::MorphBand band = clipmap::morph_band(settings);
   const clipmap::Frustum frustum(camera.forward, camera.right, camera.up, camera.tan_x(), camera.tan_y());
+  double lowest_m = levels.data(settings.base_level).lowest_m;
+  for (int level = settings.base_level; level <= finest; ++level)
+    lowest_m = std::min(lowest_m, levels.data(level).lowest_m);
   const clipmap::Horizon horizon(ellipsoid, lowest_m, camera.position);
   std::vector<std::array<int, kDiamonds>> slot_of;
   for (int level = settings.base_level; level <= finest; ++level) {
@@ -115,8 +118,10 @@ DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::Clipma
       if (hole != nullptr && hole->holds(patch.trixel)) continue;
       if (cull) {
         const glm::dvec3 centre = data.anchor + glm::dvec3(data.bounds[p].centre);
-        const double radius = static_cast<double>(data.bounds[p].radius);
-        if (!frustum.sees(centre - camera.position, radius) || !horizon.sees(centre, radius)) continue;
+        const auto radius = static_cast<double>(data.bounds[p].radius);
+        const auto highest = static_cast<double>(data.bounds[p].highest);
+        if (!frustum.sees(centre - camera.position, radius) || !horizon.sees(centre, radius, highest))
+          continue;
       }
       Kind kind = Kind::kPlain;
       if (level > settings.base_level) {

@@ -49,7 +49,7 @@ struct DrawList {
 /// @param fade    morph factor the finest level has at least
 /// @param cull    false: every patch of the mesh, for tests
 DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::ClipmapState& state,
-                        const ClipmapTextures& textures, const geo::Ellipsoid& ellipsoid, double lowest_m,
+                        const ClipmapTextures& textures, const geo::Ellipsoid& ellipsoid,
                         const Camera& camera, int finest, float fade, bool cull);
 
 }  // namespace globe::render

@@ -37,8 +37,6 @@ constexpr int kSkySteps = 16;              ///< samples of the air along a ray o
 constexpr glm::ivec2 kSkyMap{32, 128};     ///< texels across azimuth and up from the horizon
 constexpr std::size_t kMaxInstances = 32768;
 constexpr float kLateFade = 0.1f;  ///< a level that arrives late morphs in by this much a frame
-/// Nothing drawn lies lower: the deepest ground of the bodies known, and the sag of base-level triangles.
-constexpr double kLowestGround = -32000.0;
 
 bool has_air(const planet::PlanetInfo& info) {
   return info.body == "earth" || info.name.rfind("procedural", 0) == 0;
@@ -237,7 +235,7 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
 
   const auto begin = std::chrono::steady_clock::now();
   const DrawList list =
-      make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), kLowestGround, camera,
+      make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), camera,
                      stats.finest_level, fade, settings_.cull_patches);
   stats.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   stats.patches = list.patches;

@@ -27,7 +27,7 @@ float air_column(float h, float cos_zenith, float ground, float scale_height) {
   if (cos_zenith >= 0.0f) return scale_height * density * chapman_upward(r, cos_zenith);
   float sin_zenith = sqrt(max(1.0f - cos_zenith * cos_zenith, 0.0f));
   float lowest = (ground + h) * sin_zenith - ground;
-  float through = 2.0f * exp(min(-lowest / scale_height, 30.0f)) * chapman_upward(r * sin_zenith, 0.0f);
+  float through = 2.0f * exp(min(-lowest / scale_height, 30.0f)) * chapman_upward(max(r * sin_zenith, 1.0f), 0.0f);
   return scale_height * (through - density * chapman_upward(r, -cos_zenith));
 }
 

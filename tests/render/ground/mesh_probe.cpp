@@ -57,7 +57,7 @@ void MeshProbe::load(const dvec3& position, int finest) {
 std::vector<ProbeVertex> MeshProbe::triangles(const Camera& camera, float fade, Space space,
                                               bool all_as_rim) const {
   const DrawList list = globe::render::make_draw_list(settings_, *state_, textures_, surface_->ellipsoid(),
-                                                      -32000.0, camera, state_->finest_level(), fade, false);
+                                                      camera, state_->finest_level(), fade, false);
   ViewBlock view;
   if (space == Space::kClip) {
     view.clip_from_relative = glm::mat4(globe::render::clip_from_relative(camera, 0.05));
