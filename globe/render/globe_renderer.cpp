@@ -181,8 +181,8 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
   camera.right = glm::dvec3(0, 1, 0);
   camera.up = glm::dvec3(0, 0, 1);
   draw(camera, glm::dvec3(1, 0, 0), true, target);
-  DrawList list = make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), kLowestGround,
-                                 camera, settings_.clipmap.base_level, 0.0f, true);
+  DrawList list = make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), camera,
+                                 settings_.clipmap.base_level, 0.0f, true);
   std::vector<Batch> batches;
   for (const Kind kind : {Kind::kPlain, Kind::kMorphing, Kind::kRim}) {
     batches.push_back({kind, kind == Kind::kRim ? 1 : 0, 0, {list.batches.front().instances.front()}});
@@ -234,9 +234,8 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   target.clear_depth(0.0f);
 
   const auto begin = std::chrono::steady_clock::now();
-  const DrawList list =
-      make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), camera,
-                     stats.finest_level, fade, settings_.cull_patches);
+  const DrawList list = make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), camera,
+                                       stats.finest_level, fade, settings_.cull_patches);
   stats.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   stats.patches = list.patches;
   draw_ground(list, stats);
