@@ -16,7 +16,7 @@ Settings Settings::for_detail(int detail, int shading_levels) {
   settings.m = static_cast<int>(std::bit_floor(static_cast<unsigned>(detail / 8)));
   const int unit = settings.unit();
   settings.s = (detail + unit - 1) / unit * unit;
-  settings.base_level = std::bit_width(static_cast<unsigned>(settings.s)) - 1;
+  settings.base_level = static_cast<int>(std::bit_width(static_cast<unsigned>(settings.s))) - 1;
   settings.shading_levels = shading_levels;
   return settings;
 }
