@@ -14,6 +14,11 @@ if(GLOBE_SANITIZE)
   target_compile_options(globe_flags INTERFACE -Wno-maybe-uninitialized)
 endif()
 
+if(GLOBE_FUZZ)
+  target_compile_options(globe_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+  target_link_options(globe_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
 # globe_library(NAME [PUBLIC libs...] [PRIVATE libs...]): a static library of every .cpp in this folder.
 function(globe_library name)
   cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})

@@ -29,7 +29,7 @@ GLenum stage_of(const std::string& file) {
   for (const Stage& stage : stages) {
     if (file.ends_with(stage.suffix)) return stage.stage;
   }
-  assert(!"shader file with an unknown suffix");
+  assert(false && "shader file with an unknown suffix");
   return 0;
 }
 

@@ -55,7 +55,7 @@ PixelLayout pixel_layout(GLenum format) {
     case GL_DEPTH_COMPONENT32F:
       return {GL_DEPTH_COMPONENT, GL_FLOAT, 4};
     default:
-      assert(!"format without a pixel layout");
+      assert(false && "format without a pixel layout");
       return {};
   }
 }

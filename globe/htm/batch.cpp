@@ -54,9 +54,9 @@ GLOBE_FOR_EVERY_VECTOR_WIDTH void walk(Walks& w, int level) {
       const Determinant d1 = rounded_determinant(m12, m01, u);
       const Determinant d2 = rounded_determinant(m20, m12, u);
       const bool in0 = d0.value > 0.0, in1 = d1.value > 0.0, in2 = d2.value > 0.0;
-      const bool doubt = (std::abs(d0.value) <= d0.error) | (std::abs(d1.value) <= d1.error) |
-                         (std::abs(d2.value) <= d2.error);
-      w.doubtful[k] |= doubt ? 1U : 0U;
+      w.doubtful[k] |= static_cast<std::uint64_t>(std::abs(d0.value) <= d0.error) |
+                       static_cast<std::uint64_t>(std::abs(d1.value) <= d1.error) |
+                       static_cast<std::uint64_t>(std::abs(d2.value) <= d2.error);
       w.id[k] = w.id[k] << 2 | (in0 ? 0U : in1 ? 1U : in2 ? 2U : 3U);
       w.c0.set(k, select(in0, c0, select(in1, c1, select(in2, c2, m12))));
       w.c1.set(k, select(in0, m01, select(in1, m12, m20)));
