@@ -44,8 +44,8 @@ bool Horizon::sees(const dvec3& centre_ecef, double radius_m, double highest_m) 
   const double aside = std::sqrt(std::max(distance * distance - up * up, 0.0));
   const double inside = (camera_distance_ - up) * sine - aside * std::sqrt(1.0 - sine * sine);
   if (up + radius <= sine && inside >= radius + kRounding) return false;
-  // Or too far round the planet for its highest point.
-  // Scaled, the surface at a height lies within this radius, by its support function again.
+  // Or too far round the planet for its highest point: scaled, the surface at a height lies within this
+  // radius, by its support function again.
   const double by_height = widest_ * shortest_ * (1.0 + highest_m / (highest_m < 0.0 ? longest_ : shortest_));
   const double top = std::min(distance + radius, by_height);
   const double own_angle = top > 1.0 ? std::acos(1.0 / top) : 0.0;

@@ -79,6 +79,31 @@ TEST_F(GlTest, H24TheSameCameraGivesTheSameBytes) {
   EXPECT_EQ(one_thread, 0u);
 }
 
+TEST_F(GlTest, H12PicturesAreTheSameWithoutCulling) {
+  const auto surface = views::builtin_planet();
+  const Framebuffer picture(320, 180);
+  RenderSettings settings = full_settings();
+  settings.clipmap = Settings::for_detail(32, 1);
+  GlobeRenderer culled(surface, settings);
+  settings.cull_patches = false;
+  GlobeRenderer whole(surface, settings);
+  std::size_t different_bytes = 0, drawn = 0, all = 0;
+  const auto cameras = tour(culled, hard::full() ? 60 : 7);
+  for (const Camera& camera : cameras) {
+    const dvec3 sun = glm::normalize(camera.position);
+    drawn += culled.draw(camera, sun, true, picture).patches;
+    const Bytes first = picture.read_rgba8();
+    all += whole.draw(camera, sun, true, picture).patches;
+    different_bytes += different(first, picture.read_rgba8());
+  }
+  hard::report("H12",
+               "bytes of pictures that culling changes, " + std::to_string(cameras.size()) + " pictures, " +
+                   std::to_string(drawn) + " of " + std::to_string(all) + " patches drawn",
+               "0", std::to_string(different_bytes));
+  EXPECT_EQ(different_bytes, 0u);
+  EXPECT_LT(drawn, all / 2);
+}
+
 /// Texels of a state's resident nodes, of all layers, in the order of the nodes.
 template <class T>
 std::vector<T> resident(const globe::gl::Texture& texture, const globe::clipmap::NodeRect& rect, int layer) {

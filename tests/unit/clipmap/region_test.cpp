@@ -181,6 +181,27 @@ TEST_P(RegionModel, RimsAreWhollyMorphedAndHolesNotAtAll) {
   }
 }
 
+TEST_P(RegionModel, EveryPatchAroundARimVertexKnowsThatItIsOne) {
+  const Settings settings = Settings::for_detail(GetParam());
+  const PatchMesh mesh = make_patch_mesh(settings.m);
+  for (const dvec3& u : cameras(full_run() ? 144 : 24)) {
+    const Region region = make_region(settings, nadir(u, settings.base_level + 2));
+    std::map<Key, std::set<bool>> seen;  // vertex: whether patches take it from the coarser level
+    for (const Patch& patch : make_ring(settings, region, nullptr)) {
+      for (const auto& [a, b] : mesh.vertices) {
+        const bool on_rim = ((patch.rim & 1) != 0 && a + b == settings.m) ||
+                            ((patch.rim & 2) != 0 && a == 0) || ((patch.rim & 4) != 0 && b == 0) ||
+                            ((patch.rim_corners & 1) != 0 && a + b == 0) ||
+                            ((patch.rim_corners & 2) != 0 && a == settings.m) ||
+                            ((patch.rim_corners & 4) != 0 && b == settings.m);
+        const ivec2 p = patch_node(patch.trixel, settings.m, a, b);
+        seen[key_of({patch.trixel.d, region.level, p.x, p.y}, region.level)].insert(on_rim);
+      }
+    }
+    for (const auto& [vertex, ways] : seen) ASSERT_EQ(ways.size(), 1u);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Details, RegionModel, testing::Values(16, 20, 28, 40, 64, 100));
 
 /// The images' distance against a breadth-first search over the lattice, wherever it matters: within s cells.
