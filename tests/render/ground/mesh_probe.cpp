@@ -49,7 +49,8 @@ MeshProbe::MeshProbe(std::shared_ptr<const Surface> surface, const globe::clipma
 void MeshProbe::load(const dvec3& position, int finest) {
   const Geodetic place = globe::geo::geodetic_from_ecef(surface_->ellipsoid(), position);
   const globe::clipmap::Target target{globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg), finest};
-  const auto update = globe::clipmap::advance(settings_, *surface_, target, state_.get());
+  const auto update =
+      globe::clipmap::advance(settings_, *surface_, target, state_.get(), globe::clipmap::Stride::kWhole);
   textures_.apply(update);
   state_ = update.state;
 }

@@ -161,11 +161,13 @@ TEST_F(GlTest, H18WindowsAfterAnyWalkHoldWhatARefillWould) {
       u = glm::normalize(u + hard::random_direction(random) * (k % 5 == 4 ? 0.7 : reach));
       if (k % 4 == 2) u = globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg);
       const globe::clipmap::Target target{u, settings.base_level + 3 + static_cast<int>(random() % 14)};
-      auto update = globe::clipmap::advance(settings, *surface, target, state.get());
+      auto update =
+          globe::clipmap::advance(settings, *surface, target, state.get(), globe::clipmap::Stride::kWhole);
       walked.apply(update);
       state = update.state;
       ClipmapTextures fresh(settings);
-      const auto refill = globe::clipmap::advance(settings, *surface, target, nullptr);
+      const auto refill =
+          globe::clipmap::advance(settings, *surface, target, nullptr, globe::clipmap::Stride::kWhole);
       fresh.apply(refill);
       for (std::size_t l = 0; l < state->levels.size(); ++l) {
         EXPECT_EQ(state->levels[l]->anchor, refill.state->levels[l]->anchor);
