@@ -126,6 +126,17 @@ TEST(ShaderLibrary, NoSunlightPassesThroughThePlanet) {
   }
 }
 
+TEST(ShaderLibrary, MieLightAddsToTheSkyAndNeverMoreThanItsRedTells) {
+  const glm::vec4 sky(0.1f, 0.2f, 0.4f, 0.05f);
+  const glm::vec3 without = shader::with_mie(glm::vec4(0.1f, 0.2f, 0.4f, 0.0f), 0.9f);
+  EXPECT_EQ(without, glm::vec3(0.1f, 0.2f, 0.4f));
+  const glm::vec3 light = shader::with_mie(sky, 0.9f);
+  EXPECT_NEAR(light.x - 0.1f, 0.05f * shader::mie_phase(0.9f), 1e-6f);
+  EXPECT_GT(light.z, 0.4f);
+  // Where next to no light is left the red's share is bounded.
+  EXPECT_LT(shader::with_mie(glm::vec4(1e-9f, 1e-9f, 1e-9f, 0.05f), 0.9f).x, 1e-7f);
+}
+
 TEST_F(GlTest, ShaderLibraryGivesTheSameOnTheGpu) {
   const std::string program =
       "#define OUT(type) out type\n"
