@@ -3,18 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "globe/base/vector_width.h"
 #include "globe/htm/midpoint.h"
 #include "globe/htm/predicates.h"
 #include "globe/htm/trixel.h"
-
-// One clone for each width of vector the processor may have, chosen when the program starts. The results are
-// the same bits: no clone contracts multiplications and additions. Not under the sanitizers, which start too
-// late.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define GLOBE_FOR_EVERY_VECTOR_WIDTH __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define GLOBE_FOR_EVERY_VECTOR_WIDTH
-#endif
 
 namespace globe::htm {
 namespace {

@@ -1,7 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "globe/planet/noise.h"
 
 namespace globe::planet {
 
@@ -20,18 +25,21 @@ class BuiltinPlanet {
     double height_m;
     float moisture;  ///< 0 desert, 1 rain forest
   };
-  /// Some 2 µs.
   Point at(const dvec3& u) const;
+  /// The same at many places, kLanes of them for little more than one costs.
+  std::vector<Point> at(std::span<const dvec3> u) const;
 
  private:
-  /// Where a direction lies between the deep sea (< 0), the coast (0) and the heart of a continent (1 and
+  using Points = std::array<Point, kLanes>;
+  /// Where directions lie between the deep sea (< 0), the coast (0) and the heart of a continent (1 and
   /// more).
   struct Continent {
-    dvec3 warped;
-    float inland;
+    LanePlaces warped;
+    LaneFloats inland;
   };
-  Continent continent_at(const dvec3& u) const;
-  double mountains_at(const dvec3& u, const Continent& continent) const;
+  Continent continent_at(const LanePlaces& u) const;
+  Points points_at(const LanePlaces& u) const;
+  LaneFloats mountains_at(const LanePlaces& u, const Continent& continent) const;
 
   std::uint32_t seed_;
   float coast_ = 0.0f;  ///< value of the continental field that 62 % of the planet lies below

@@ -9,6 +9,6 @@ namespace globe::planet {
 /// At each octave space is cut into cells with at most one crater each, of random place, size and age; those
 /// near the sphere are stamped on it. Bowls are as deep as a fifth of their width when fresh, rims a
 /// twenty-fifth. Source of the proportions: Pike 1977, simple lunar craters.
-ReliefSample crater_relief(const ReliefScale& scale, const dvec3& u, float roughness);
+ReliefLanes crater_relief(const ReliefScale& scale, const ReliefPlaces& places);
 
 }  // namespace globe::planet

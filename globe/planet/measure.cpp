@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <map>
+#include <vector>
 
 #include "globe/planet/directions.h"
 #include "globe/planet/relief.h"
@@ -49,28 +51,22 @@ dvec3 pull(const dvec3& u, double h, const dvec3& other_u, double other_h, doubl
 
 vec3 slope_from(const dvec3& sum, double count) { return vec3(sum * (2.0 * 0x1p-40 / count)); }
 
-/// The data around octahedron corners, node by node.
+/// The data around octahedron corners, node by node; heights are asked for once.
 class CornerGround {
  public:
   CornerGround(const ReliefScale& scale, const HeightOfNode& height_of)
       : scale_(scale), height_of_(height_of) {}
 
-  float roughness(const Node& node) const {
-    const double h = height_of_(node);
+  float roughness(const Node& node) {
+    const double h = height(node);
     double sum = 0.0;
     const Neighbours around = neighbours(node);
     for (std::size_t k = 0; k < around.count; ++k)
-      sum += squared_rise(h, height_of_(around.node[k]), scale_.data_edge_m);
+      sum += squared_rise(h, height(around.node[k]), scale_.data_edge_m);
     return roughness_from(sum, static_cast<double>(around.count), h, scale_.craters);
   }
 
-  /// Height without massifs.
-  double base_height(const Node& node) const {
-    return height_of_(node) -
-           static_cast<double>(massif_relief(scale_, node_direction(node), roughness(node)).height_m);
-  }
-
-  vec3 base_slope(const Node& node) const {
+  vec3 base_slope(const Node& node) {
     const dvec3 u = node_direction(node);
     const double h = base_height(node);
     dvec3 sum(0.0);
@@ -83,6 +79,32 @@ class CornerGround {
   }
 
  private:
+  using Known = std::map<std::array<int, 3>, double>;
+
+  static std::array<int, 3> key_of(const Node& node) {
+    const ivec3 key = octahedral_key(node);
+    return {key.x, key.y, key.z};
+  }
+
+  double height(const Node& node) {
+    const auto [at, fresh] = heights_.try_emplace(key_of(node), 0.0);
+    if (fresh) at->second = height_of_(node);
+    return at->second;
+  }
+
+  /// Height without massifs.
+  double base_height(const Node& node) {
+    const auto [at, fresh] = base_heights_.try_emplace(key_of(node), 0.0);
+    if (fresh) {
+      const dvec3 u = node_direction(node);
+      const float rough = roughness(node);
+      ReliefPlaces places;
+      for (std::size_t k = 0; k < kLanes; ++k) places.set(k, u, rough, vec3(0.0f));
+      at->second = height(node) - static_cast<double>(massif_relief(scale_, places).height_m[0]);
+    }
+    return at->second;
+  }
+
   struct Neighbours {
     std::array<Node, 6> node;
     std::size_t count = 0;
@@ -102,6 +124,7 @@ class CornerGround {
 
   const ReliefScale& scale_;
   const HeightOfNode& height_of_;
+  Known heights_, base_heights_;
 };
 
 /// True where the six nodes around a plane coordinate may not be the neighbours of the node it means: at
@@ -125,34 +148,52 @@ class TileGround {
         directions_(node_directions(height.id, height.guard - 1)),
         roughness_(height.id, 0.0f, height.guard - 1),
         base_height_(height.id, 0.0, height.guard - 1) {
+    std::vector<ivec2> nodes;
     for_each_node(height.id, roughness_.guard, [&](int i, int j, const Node& node) {
       roughness_.at(i, j) =
-          near_corner(node_tile(), height_.guard, i, j) ? corners_.roughness(node) : roughness(i, j);
-      base_height_.at(i, j) =
-          height_.at(i, j) -
-          static_cast<double>(massif_relief(scale_, directions_.at(i, j), roughness_.at(i, j)).height_m);
+          near_corner(height.id, height.guard, i, j) ? corners_.roughness(node) : roughness(i, j);
+      nodes.emplace_back(i, j);
     });
+    in_lanes(
+        nodes,
+        [&](const ivec2& node, std::size_t k, ReliefPlaces& places) {
+          const std::size_t at = roughness_.index(node.x, node.y);
+          places.set(k, directions_.values[at], roughness_.values[at], vec3(0.0f));
+        },
+        [&](const ReliefPlaces& places) { return massif_relief(scale_, places); },
+        [&](const ivec2& node, std::size_t k, const ReliefLanes& massif) {
+          base_height_.at(node.x, node.y) =
+              height_.at(node.x, node.y) - static_cast<double>(massif.height_m[k]);
+        });
   }
 
-  void write(bool carved, SurfaceTile& tile) const {
+  void write(bool carved, SurfaceTile& tile) {
+    std::vector<ivec2> nodes;
     for_each_node(tile.id, height_.guard - kMeasureMargin, [&](int i, int j, const Node& node) {
-      const float rough = roughness_.at(i, j);
-      tile.channel(Channel::kRoughness).at(i, j) = rough;
+      tile.channel(Channel::kRoughness).at(i, j) = roughness_.at(i, j);
       if (!carved) return;
       const vec3 slope =
-          near_corner(node_tile(), height_.guard, i, j) ? corners_.base_slope(node) : base_slope(i, j);
+          near_corner(tile.id, height_.guard, i, j) ? corners_.base_slope(node) : base_slope(i, j);
       tile.channel(Channel::kSlopeX).at(i, j) = slope.x;
       tile.channel(Channel::kSlopeY).at(i, j) = slope.y;
       tile.channel(Channel::kSlopeZ).at(i, j) = slope.z;
-      const ReliefSample r = carved_relief(scale_, directions_.at(i, j), rough, slope);
-      tile.channel(Channel::kCarved).at(i, j) = r.height_m;
-      tile.channel(Channel::kProminence).at(i, j) = r.prominence;
+      nodes.emplace_back(i, j);
     });
+    in_lanes(
+        nodes,
+        [&](const ivec2& node, std::size_t k, ReliefPlaces& places) {
+          const auto channel = [&](Channel c) { return tile.channel(c).at(node.x, node.y); };
+          places.set(k, directions_.at(node.x, node.y), channel(Channel::kRoughness),
+                     {channel(Channel::kSlopeX), channel(Channel::kSlopeY), channel(Channel::kSlopeZ)});
+        },
+        [&](const ReliefPlaces& places) { return carved_relief(scale_, places); },
+        [&](const ivec2& node, std::size_t k, const ReliefLanes& relief) {
+          tile.channel(Channel::kCarved).at(node.x, node.y) = relief.height_m[k];
+          tile.channel(Channel::kProminence).at(node.x, node.y) = relief.prominence[k];
+        });
   }
 
  private:
-  const TileId& node_tile() const { return height_.id; }
-
   float roughness(int i, int j) const {
     const double h = height_.at(i, j);
     double sum = 0.0;

@@ -1,105 +1,104 @@
 #include "globe/planet/relief.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include "globe/planet/craters.h"
-#include "globe/planet/noise.h"
+#include "globe/planet/valleys.h"
 
 namespace globe::planet {
 namespace {
 
-constexpr float kMassifHeight = 0.055f;  ///< height of a massif over its wavelength, where roughness is 1
-constexpr float kValleyDepth = 0.085f;   ///< half a valley's depth over the wavelength
-constexpr float kWavesPerCell = 1.0f;
-constexpr float kCrestRounding = 0.012f;  ///< squared; 0 would fold crests sharply
-constexpr float kHush = 0.02f;            ///< finer valleys with less say are left out
-constexpr float kWinding = 0.18f;         ///< turns
-constexpr float kSliding = 1.5f;
-constexpr float kTurn = 6.2831853f;
-
-vec3 tangent(const vec3& v, const vec3& up) { return v - up * glm::dot(v, up); }
-
-/// |x|, rounded at 0, and its derivative.
-struct RoundedAbs {
-  float value, slope;
+struct ValleyLanes {
+  LaneFloats say, shift;
 };
-RoundedAbs rounded_abs(float x, float rounding) {
-  const float r = std::sqrt(x * x + rounding);
-  return {r, x / r};
+
+GLOBE_INLINE Relief relief_of(const ReliefLanes& r, std::size_t k) {
+  return {r.height_m[k], {r.slope_x[k], r.slope_y[k], r.slope_z[k]}, r.prominence[k]};
 }
 
-/// Roughness at a wavelength: small valleys are more alike everywhere than massifs are.
-float roughness_at(float roughness, double wave_m) {
-  const auto t = static_cast<float>(std::max(0.0, 0.55 * (1.0 - wave_m / 2500.0)));
-  return roughness + t * (std::sqrt(roughness) - roughness);
+GLOBE_INLINE void store(const Relief& from, std::size_t k, ReliefLanes& __restrict r) {
+  r.height_m[k] = from.height_m;
+  r.slope_x[k] = from.slope.x;
+  r.slope_y[k] = from.slope.y;
+  r.slope_z[k] = from.slope.z;
+  r.prominence[k] = from.prominence;
 }
 
-void carve_valleys(const ReliefScale& scale, const dvec3& u, float roughness, vec3 slope, ReliefSample& r) {
-  const vec3 up(u);
-  float say = 1.0f;  // how much finer valleys may change: none along the crests and floors of coarser ones
-  float shift = kWinding * r.prominence;  // valleys wind with the relief they cut
+GLOBE_FOR_EVERY_VECTOR_WIDTH void raise_massifs(std::uint32_t seed, double cells_per_radius, float wave_m,
+                                                const ReliefPlaces& places, LaneFloats& __restrict weight,
+                                                ReliefLanes& __restrict r) {
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    Relief one = relief_of(r, k);
+    raise_massif(seed, cells_per_radius, wave_m, places.u.get(k), places.roughness[k], one, weight[k]);
+    store(one, k, r);
+  }
+}
+
+GLOBE_FOR_EVERY_VECTOR_WIDTH void carve_octave(std::uint32_t seed, double cells_per_radius, float wave_m,
+                                               float even, const ReliefPlaces& places,
+                                               ValleyLanes& __restrict state, ReliefLanes& __restrict r) {
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    Relief one = relief_of(r, k);
+    ValleyState own{state.say[k], state.shift[k]};
+    carve_valley(seed, cells_per_radius, wave_m, even, places.u.get(k), places.roughness[k],
+                 {places.base_x[k], places.base_y[k], places.base_z[k]}, one, own);
+    state.say[k] = own.say;
+    state.shift[k] = own.shift;
+    store(one, k, r);
+  }
+}
+
+GLOBE_FOR_EVERY_VECTOR_WIDTH void deepen_octave(float wave_m, float even, const ReliefPlaces& places,
+                                                ReliefLanes& __restrict r) {
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    Relief one = relief_of(r, k);
+    deepen_valley(wave_m, even, places.roughness[k], {places.base_x[k], places.base_y[k], places.base_z[k]},
+                  one);
+    store(one, k, r);
+  }
+}
+
+bool all_hushed(const ValleyLanes& state) {
+  float most = 0.0f;
+  for (std::size_t k = 0; k < kLanes; ++k) most = greater(most, state.say[k]);
+  return most < kValleyHush;
+}
+
+void carve_valleys(const ReliefScale& scale, const ReliefPlaces& places, ReliefLanes& __restrict r) {
+  ValleyLanes state;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    state.say[k] = 1.0f;
+    state.shift[k] = kValleyWinding * r.prominence[k];
+  }
   std::uint32_t seed = scale.seed + 0x40;
   for (double wave = 0.5 * scale.data_edge_m; wave >= scale.finest_wave_m; wave *= 0.5, ++seed) {
-    const float steepness = glm::length(slope);
-    if (steepness < 1e-6f) break;
-    const float rough = roughness_at(roughness, wave);
-    if (say < kHush) {
-      r.height_m += kValleyDepth * rough * static_cast<float>(wave) * r.prominence;
+    const auto wave_m = static_cast<float>(wave);
+    if (!all_hushed(state)) {
+      carve_octave(seed, scale.radius_m / wave, wave_m, evenness(wave), places, state, r);
       continue;
     }
-    const float gentle = 0.10f * rough + 0.001f;
-    const float gate = steepness * steepness / (steepness * steepness + gentle * gentle);
-    const vec3 across = glm::cross(up, slope) / steepness;
-    const Stripes stripes =
-        stripe_noise(seed, u * (scale.radius_m / (wave * kWavesPerCell)), across, kWavesPerCell, shift);
-    // Phase 0 is a crest: 1 - 2 |sin(phase / 2)| is sharp there and round in the floor, at phase pi.
-    const float half = std::sqrt(0.5f * (1.0f - stripes.cosine) + kCrestRounding);
-    const float profile = 1.0f - 2.0f * half;
-    const float profile_slope = -0.5f * stripes.sine / half;
-    // What is steep already slides before it is carved deeper.
-    const float weight = (say - kHush) * gate / (1.0f + kSliding * steepness * steepness);
-    const float depth = kValleyDepth * rough;
-    const float value = r.prominence + weight * (profile - r.prominence);
-    r.height_m += depth * static_cast<float>(wave) * value;
-    const vec3 turn = (depth * kTurn * weight * profile_slope) * across;
-    r.slope += turn;
-    slope += turn;
-    r.prominence = value;
-    shift = kWinding * stripes.sine;
-    const float flank = std::min(1.0f, 1.6f * stripes.sine * stripes.sine + 0.12f);
-    say *= flank;
+    deepen_octave(wave_m, evenness(wave), places, r);
   }
 }
 
 }  // namespace
 
-ReliefSample massif_relief(const ReliefScale& scale, const dvec3& u, float roughness) {
-  ReliefSample r;
+ReliefLanes massif_relief(const ReliefScale& scale, const ReliefPlaces& places) {
+  ReliefLanes r;
   if (scale.craters) return r;
-  const vec3 up(u);
-  float weight = 1.0f;
+  LaneFloats weight;
+  weight.fill(1.0f);
   double wave = 2.0 * scale.data_edge_m;
-  for (std::uint32_t k = 0; k < 2 && wave >= scale.finest_wave_m; ++k, wave *= 0.5) {
-    const NoiseSample n = gradient_noise(scale.seed + k, u * (scale.radius_m / wave));
-    const RoundedAbs fold = rounded_abs(n.value, 0.03f);
-    const float height = kMassifHeight * roughness * weight;
-    r.height_m += height * static_cast<float>(wave) * (1.0f - 2.2f * fold.value);
-    r.slope += tangent(n.gradient, up) * (-2.2f * height * fold.slope);
-    r.prominence = std::clamp(1.0f - 2.2f * fold.value, -1.0f, 1.0f);
-    weight = 0.5f + 0.5f * std::max(0.0f, r.prominence);
-  }
+  for (std::uint32_t k = 0; k < 2 && wave >= scale.finest_wave_m; ++k, wave *= 0.5)
+    raise_massifs(scale.seed + k, scale.radius_m / wave, static_cast<float>(wave), places, weight, r);
   return r;
 }
 
-ReliefSample carved_relief(const ReliefScale& scale, const dvec3& u, float roughness,
-                           const vec3& base_slope) {
-  if (scale.craters) return crater_relief(scale, u, roughness);
-  if (roughness <= 0.0f) return {};
-  ReliefSample r = massif_relief(scale, u, roughness);
-  carve_valleys(scale, u, roughness, base_slope + r.slope, r);
+ReliefLanes carved_relief(const ReliefScale& scale, const ReliefPlaces& places) {
+  if (scale.craters) return crater_relief(scale, places);
+  ReliefLanes r = massif_relief(scale, places);
+  carve_valleys(scale, places, r);
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    if (places.roughness[k] <= 0.0f) store({0.0f, vec3(0.0f), 0.0f}, k, r);
+  }
   return r;
 }
 

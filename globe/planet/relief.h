@@ -1,12 +1,15 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
+
+#include "globe/planet/noise.h"
 
 namespace globe::planet {
-
-using glm::dvec3;
-using glm::vec3;
 
 /// Relief finer than the data as a function of place: massifs, and on their slopes valleys in valleys.
 ///
@@ -21,16 +24,44 @@ struct ReliefScale {
   bool craters = false;      ///< carve craters (craters.h) instead; no massifs
 };
 
-struct ReliefSample {
-  float height_m = 0;
-  vec3 slope{0.0f};      ///< tangent vector, rise over run
-  float prominence = 0;  ///< [-1, 1]: valley floor to crest, of the finest octave that has a say
+/// kLanes places, side by side.
+struct ReliefPlaces {
+  LanePlaces u;                             ///< geodetic normals
+  LaneFloats roughness;                     ///< [0, 1]
+  LaneFloats base_x{}, base_y{}, base_z{};  ///< slope of the ground without its relief, a tangent vector
+
+  void set(std::size_t k, const dvec3& normal, float rough, const vec3& base_slope) {
+    u.set(k, normal);
+    roughness[k] = rough;
+    base_x[k] = base_slope.x;
+    base_y[k] = base_slope.y;
+    base_z[k] = base_slope.z;
+  }
 };
 
-/// The massifs alone. `u`: geodetic normal; `roughness` [0, 1].
-ReliefSample massif_relief(const ReliefScale& scale, const dvec3& u, float roughness);
+struct ReliefLanes {
+  LaneFloats height_m{};
+  LaneFloats slope_x{}, slope_y{}, slope_z{};  ///< tangent vector, rise over run
+  LaneFloats prominence{};  ///< [-1, 1]: valley floor to crest, of the finest octave that has a say
+};
 
-/// Massifs and what is carved into them. `base_slope`: of the ground without its relief.
-ReliefSample carved_relief(const ReliefScale& scale, const dvec3& u, float roughness, const vec3& base_slope);
+/// Works nodes (i, j) out kLanes at a time: `set(node, k, places)` says where, `make(places)` is one of the
+/// functions below, `get(node, k, relief)` takes what comes.
+template <typename Set, typename Make, typename Get>
+void in_lanes(const std::vector<glm::ivec2>& nodes, const Set& set, const Make& make, const Get& get) {
+  ReliefPlaces places;
+  for (std::size_t first = 0; first < nodes.size(); first += kLanes) {
+    const std::size_t count = std::min(kLanes, nodes.size() - first);
+    for (std::size_t k = 0; k < kLanes; ++k) set(nodes[first + std::min(k, count - 1)], k, places);
+    const ReliefLanes relief = make(places);
+    for (std::size_t k = 0; k < count; ++k) get(nodes[first + k], k, relief);
+  }
+}
+
+/// The massifs alone; base slopes are not used.
+ReliefLanes massif_relief(const ReliefScale& scale, const ReliefPlaces& places);
+
+/// Massifs and what is carved into them.
+ReliefLanes carved_relief(const ReliefScale& scale, const ReliefPlaces& places);
 
 }  // namespace globe::planet

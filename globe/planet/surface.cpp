@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "globe/planet/directions.h"
 #include "globe/planet/measure.h"
 #include "globe/planet/synthesis.h"
 
@@ -205,11 +206,20 @@ TileValues<double> Surface::heights_around(const SurfaceTile& tile, int known) c
   TileValues<double> around(tile.id, 0.0, known + kMeasureMargin);
   if (builtin_) {
     const int cells = tile.id.cells();
-    for_each_node(tile.id, around.guard, [&](int i, int j, const Node& node) {
-      const auto held = [&](int x) { return x >= -known && x <= cells + known; };
-      const bool is_known = held(i - tile.id.first_i()) && held(j - tile.id.first_j());
-      around.at(i, j) = is_known ? tile.height.at(i, j) : measured_height(node);
+    const auto held = [&](int x) { return x >= -known && x <= cells + known; };
+    const TileValues<dvec3> directions = node_directions(tile.id, around.guard);
+    std::vector<std::size_t> beyond;
+    std::vector<dvec3> u;
+    for_each_node(tile.id, around.guard, [&](int i, int j, const Node&) {
+      if (held(i - tile.id.first_i()) && held(j - tile.id.first_j())) {
+        around.at(i, j) = tile.height.at(i, j);
+      } else {
+        beyond.push_back(around.index(i, j));
+        u.push_back(directions.at(i, j));
+      }
     });
+    const std::vector<BuiltinPlanet::Point> points = builtin_->at(u);
+    for (std::size_t k = 0; k < beyond.size(); ++k) around.values[beyond[k]] = points[k].height_m;
   } else {
     const std::vector<float> heights = read_nodes("height", tile.id, around.guard);
     std::copy(heights.begin(), heights.end(), around.values.begin());

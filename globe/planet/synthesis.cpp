@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "globe/planet/directions.h"
 
@@ -43,11 +44,6 @@ ReliefScale Synthesis::relief_scale() const {
 
 namespace {
 
-vec3 slope_at(const SurfaceTile& tile, int i, int j) {
-  return {tile.channel(Channel::kSlopeX).at(i, j), tile.channel(Channel::kSlopeY).at(i, j),
-          tile.channel(Channel::kSlopeZ).at(i, j)};
-}
-
 /// New nodes of a level that is still carved.
 void carve(const Synthesis& synthesis, bool own_nodes_only, SurfaceTile& tile) {
   const ReliefScale scale = synthesis.relief_scale();
@@ -55,22 +51,34 @@ void carve(const Synthesis& synthesis, bool own_nodes_only, SurfaceTile& tile) {
   const bool last = tile.id.level == synthesis.carved_level();
   TileValues<float>& carved = tile.channel(Channel::kCarved);
   TileValues<float>& roughness = tile.channel(Channel::kRoughness);
+  std::vector<ivec2> nodes;
+  nodes.reserve(directions.values.size());
   for_each_node(tile.id, guard_of(own_nodes_only), [&](int i, int j, const Node& node) {
-    const bool fresh = is_new(node);
-    if (!fresh && !last) return;
-    const ReliefSample r = carved_relief(scale, directions.at(i, j),
-                                         std::clamp(roughness.at(i, j), 0.0f, 1.0f), slope_at(tile, i, j));
-    if (fresh) {
-      tile.height.at(i, j) += static_cast<double>(r.height_m) - static_cast<double>(carved.at(i, j));
-      carved.at(i, j) = r.height_m;
-      tile.channel(Channel::kProminence).at(i, j) = r.prominence;
+    if (last || is_new(node)) nodes.emplace_back(i, j);
+  });
+  const auto slope = [&](std::size_t at) {
+    return vec3(tile.channel(Channel::kSlopeX).values[at], tile.channel(Channel::kSlopeY).values[at],
+                tile.channel(Channel::kSlopeZ).values[at]);
+  };
+  const auto set = [&](const ivec2& node, std::size_t k, ReliefPlaces& places) {
+    const std::size_t at = carved.index(node.x, node.y);
+    places.set(k, directions.values[at], std::clamp(roughness.values[at], 0.0f, 1.0f), slope(at));
+  };
+  const auto make = [&](const ReliefPlaces& places) { return carved_relief(scale, places); };
+  const auto get = [&](const ivec2& node, std::size_t k, const ReliefLanes& r) {
+    const std::size_t at = carved.index(node.x, node.y);
+    if (is_new({tile.id.d, tile.id.level, node.x, node.y})) {
+      tile.height.values[at] += static_cast<double>(r.height_m[k]) - static_cast<double>(carved.values[at]);
+      carved.values[at] = r.height_m[k];
+      tile.channel(Channel::kProminence).values[at] = r.prominence[k];
     }
     if (last) {
       // From here on roughness is that of the slope the node lies on: flat floors stay smooth.
-      const float steep = glm::length(slope_at(tile, i, j) + r.slope);
-      roughness.at(i, j) = std::min(1.0f, roughness.at(i, j) * 0.25f + 1.4f * steep);
+      const float steep = glm::length(slope(at) + vec3(r.slope_x[k], r.slope_y[k], r.slope_z[k]));
+      roughness.values[at] = std::min(1.0f, roughness.values[at] * 0.25f + 1.4f * steep);
     }
-  });
+  };
+  in_lanes(nodes, set, make, get);
 }
 
 /// New nodes below the last carved level, displaced by their hash: half the slope at every third level below
@@ -106,12 +114,18 @@ void synthesise_detail(const Synthesis& synthesis, bool own_nodes_only, SurfaceT
 
 void synthesise_builtin(const BuiltinPlanet& planet, bool own_nodes_only, SurfaceTile& tile) {
   const TileValues<dvec3> directions = node_directions(tile.id);
+  std::vector<std::size_t> nodes;
+  std::vector<dvec3> u;
   for_each_node(tile.id, guard_of(own_nodes_only), [&](int i, int j, const Node& node) {
     if (!is_new(node)) return;
-    const BuiltinPlanet::Point point = planet.at(directions.at(i, j));
-    tile.height.at(i, j) = point.height_m;
-    tile.channel(Channel::kMoisture).at(i, j) = point.moisture;
+    nodes.push_back(tile.height.index(i, j));
+    u.push_back(directions.at(i, j));
   });
+  const std::vector<BuiltinPlanet::Point> points = planet.at(u);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    tile.height.values[nodes[k]] = points[k].height_m;
+    tile.channel(Channel::kMoisture).values[nodes[k]] = points[k].moisture;
+  }
 }
 
 void synthesise_mottle(std::uint64_t seed, bool own_nodes_only, SurfaceTile& tile) {
