@@ -33,7 +33,7 @@ GroundSlope slope_at(const Surface& surface, const SurfaceTile& tile, const Tile
 }
 
 Ground tile_ground(const Surface& surface, const SurfaceTile& tile, int i, int j) {
-  const auto channel = [&](Channel c) { return tile.channel(c).at(i, j); };
+  const auto channel = [&](Channel c) { return tile.value(c, i, j); };
   Ground ground;
   ground.height_m = tile.height.at(i, j);
   ground.edge_m = std::ldexp(surface.root_edge(), -tile.id.level);

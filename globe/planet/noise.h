@@ -54,9 +54,10 @@ GLOBE_INLINE std::uint32_t scaled(int v, std::uint32_t factor) {
   return static_cast<std::uint32_t>(v) * factor;
 }
 
-GLOBE_INLINE int floor_of(double v) {
-  const int truncated = static_cast<int>(v);
-  return truncated - (v < static_cast<double>(truncated) ? 1 : 0);
+/// Largest integer not above v, |v| < 2^31.
+GLOBE_INLINE double floor_of(double v) {
+  const auto truncated = static_cast<double>(static_cast<int>(v));
+  return truncated - (v < truncated ? 1.0 : 0.0);
 }
 
 /// The lattice cell that holds a point: what its lower and upper corners add to hashes, the place inside, and
@@ -68,8 +69,9 @@ struct Axis {
 GLOBE_INLINE float fade(float t) { return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f); }
 GLOBE_INLINE float fade_slope(float t) { return 30.0f * t * t * (t * (t - 2.0f) + 1.0f); }
 GLOBE_INLINE Axis axis_of(double v, std::uint32_t factor, std::uint32_t seed) {
-  const int cell = floor_of(v);
-  const float f = static_cast<float>(v - static_cast<double>(cell));
+  const double floor = floor_of(v);
+  const auto cell = static_cast<int>(floor);
+  const auto f = static_cast<float>(v - floor);
   return {seed ^ scaled(cell, factor), seed ^ scaled(cell + 1, factor), f, fade(f)};
 }
 struct Cell {

@@ -32,7 +32,17 @@ PlanetInfo builtin_info(std::uint64_t seed) {
 }  // namespace
 
 SurfaceTile::SurfaceTile(const TileId& tile) : id(tile), height(tile) {
-  channels.fill(TileValues<float>(tile));
+  for (TileValues<float>& channel : channels) {
+    channel.id = tile;
+    channel.values.clear();
+  }
+}
+
+std::size_t SurfaceTile::bytes() const {
+  std::size_t sum = sizeof(SurfaceTile) + sizeof(double) * height.values.capacity();
+  if (relief) sum += sizeof(double) * relief->values.capacity();
+  for (const TileValues<float>& channel : channels) sum += sizeof(float) * channel.values.capacity();
+  return sum;
 }
 
 std::size_t Surface::TileHash::operator()(const TileId& id) const {
@@ -69,7 +79,7 @@ double Surface::root_edge() const { return ellipsoid().mean_radius() * std::numb
 void Surface::make_roots() const {
   for (int level = 0; level <= kRootLevel; ++level) {
     std::vector<SurfaceTile> tiles;
-    for (int d = 0; d < kDiamonds; ++d) tiles.emplace_back(TileId{d, level, 0, 0});
+    for (int d = 0; d < kDiamonds; ++d) tiles.push_back(empty_tile({d, level, 0, 0}));
     const auto each = [&](auto member, auto type) {
       using T = decltype(type);
       Whole<T> whole;
@@ -92,18 +102,18 @@ void Surface::make_roots() const {
     };
     const auto height = [](SurfaceTile & tile) -> auto& { return tile.height; };
     each(height, 0.0);
+    const auto channel = [](std::size_t c) {
+      return [c](SurfaceTile & tile) -> auto& { return tile.channels[c]; };
+    };
     for (std::size_t c = 0; c < kChannels; ++c)
-      each(
-          [c](SurfaceTile & tile) -> auto& { return tile.channels[c]; }, 0.0f);
+      if (inherits(static_cast<Channel>(c), level)) each(channel(c), 0.0f);
     for (SurfaceTile& tile : tiles) finish_tile(tile, true);
     fold_guard(height, 0.0);
     if (tiles[0].relief)
       fold_guard(
           [](SurfaceTile & tile) -> auto& { return *tile.relief; }, 0.0);
-    for (std::size_t c = 0; c < kChannels; ++c) {
-      fold_guard(
-          [c](SurfaceTile & tile) -> auto& { return tile.channels[c]; }, 0.0f);
-    }
+    for (std::size_t c = 0; c < kChannels; ++c)
+      if (has_channel(static_cast<Channel>(c), level)) fold_guard(channel(c), 0.0f);
     for (std::size_t d = 0; d < kDiamonds; ++d) {
       roots_[static_cast<std::size_t>(level)][d] = std::make_shared<const SurfaceTile>(std::move(tiles[d]));
     }
@@ -126,9 +136,9 @@ std::shared_ptr<const SurfaceTile> Surface::tile(const TileId& id) const {
   if (const auto found = cache_.find(id); found != cache_.end()) return found->second->tile;
   recent_.push_front({id, made});
   cache_[id] = recent_.begin();
-  const std::size_t bytes_per_tile =
-      made->height.values.size() * (sizeof(double) * (made->relief ? 2 : 1) + sizeof(float) * kChannels);
-  while (cache_.size() > 64 && cache_.size() * bytes_per_tile > cache_bytes_) {
+  held_bytes_ += made->bytes();
+  while (cache_.size() > 64 && held_bytes_ > cache_bytes_) {
+    held_bytes_ -= recent_.back().tile->bytes();
     cache_.erase(recent_.back().id);
     recent_.pop_back();
   }
@@ -137,16 +147,16 @@ std::shared_ptr<const SurfaceTile> Surface::tile(const TileId& id) const {
 
 std::shared_ptr<const SurfaceTile> Surface::make_tile(const TileId& id) const {
   const std::shared_ptr<const SurfaceTile> parent = tile(id.parent());
-  auto child = std::make_shared<SurfaceTile>(id);
+  auto child = std::make_shared<SurfaceTile>(empty_tile(id));
   predict(parent->height, child->height);
   for (std::size_t c = 0; c < kChannels; ++c) {
-    if (carries(static_cast<Channel>(c), id.level)) predict(parent->channels[c], child->channels[c]);
+    if (inherits(static_cast<Channel>(c), id.level)) predict(parent->channels[c], child->channels[c]);
   }
   finish_tile(*child, false);
   return child;
 }
 
-bool Surface::carries(Channel channel, int level) const {
+bool Surface::has_channel(Channel channel, int level) const {
   switch (channel) {
     case Channel::kRed:
     case Channel::kGreen:
@@ -158,14 +168,27 @@ bool Surface::carries(Channel channel, int level) const {
     case Channel::kSlopeX:
     case Channel::kSlopeY:
     case Channel::kSlopeZ:
-      return level > data_level_ && level <= synthesis().carved_level();
+      return level >= data_level_ && level <= synthesis().carved_level() &&
+             synthesis().carved_level() > data_level_;
     case Channel::kRoughness:
     case Channel::kProminence:
-      return level > data_level_;
+      return level >= data_level_;
     case Channel::kMottle:
       return true;
   }
   return true;
+}
+
+bool Surface::inherits(Channel channel, int level) const {
+  return level > 0 && has_channel(channel, level) && has_channel(channel, level - 1);
+}
+
+SurfaceTile Surface::empty_tile(const TileId& id) const {
+  SurfaceTile tile(id);
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    if (has_channel(static_cast<Channel>(c), id.level)) tile.channels[c] = TileValues<float>(id);
+  }
+  return tile;
 }
 
 Synthesis Surface::synthesis() const { return {seed_, root_edge(), data_level_, info_.body == "moon"}; }

@@ -44,12 +44,18 @@ struct SurfaceTile {
   /// Heights filtered to this level, for slopes; empty when the same as `height` (from the data's finest
   /// level on).
   std::optional<TileValues<double>> relief;
-  std::array<TileValues<float>, kChannels> channels;
+  std::array<TileValues<float>, kChannels> channels;  ///< those not in use have no values
 
   explicit SurfaceTile(const TileId& tile);
 
   const TileValues<float>& channel(Channel c) const { return channels[static_cast<std::size_t>(c)]; }
   TileValues<float>& channel(Channel c) { return channels[static_cast<std::size_t>(c)]; }
+  /// 0 where the channel is not in use.
+  float value(Channel c, int i, int j) const {
+    const TileValues<float>& values = channel(c);
+    return values.values.empty() ? 0.0f : values.at(i, j);
+  }
+  std::size_t bytes() const;
   const TileValues<double>& shading_height() const { return relief ? *relief : height; }
 };
 
@@ -107,8 +113,11 @@ class Surface {
   /// Height of a node of the data's finest level or a coarser one, from the data alone.
   double measured_height(const Node& node) const;
   Synthesis synthesis() const;
-  /// Channels that tiles of a level take over from their parents; the others start at 0.
-  bool carries(Channel channel, int level) const;
+  /// Channels that tiles of a level have.
+  bool has_channel(Channel channel, int level) const;
+  /// Channels that tiles of a level take over from their parents.
+  bool inherits(Channel channel, int level) const;
+  SurfaceTile empty_tile(const TileId& id) const;
   /// Fills data and synthesised detail into a predicted tile; `own_nodes_only` leaves the guard alone.
   void finish_tile(SurfaceTile& tile, bool own_nodes_only) const;
   void read_layer(const char* layer, SurfaceTile& tile, bool own_nodes_only) const;
@@ -129,7 +138,8 @@ class Surface {
 
   std::size_t cache_bytes_;
   mutable std::mutex mutex_;
-  mutable std::list<Entry> recent_;  ///< most recently used first
+  mutable std::size_t held_bytes_ = 0;  ///< by the tiles of cache_
+  mutable std::list<Entry> recent_;     ///< most recently used first
   mutable std::unordered_map<TileId, std::list<Entry>::iterator, TileHash> cache_;
 };
 

@@ -69,7 +69,8 @@ TEST(Ground, TilesAgreeBitForBitWhereverTheyHoldTheSameVertex) {
             const double height = tile->height.at(i, j);
             values[0] = static_cast<float>(height);
             values[1] = static_cast<float>(height - static_cast<double>(values[0]));
-            for (std::size_t c = 0; c < kChannels; ++c) values[c + 2] = tile->channels[c].at(i, j);
+            for (std::size_t c = 0; c < kChannels; ++c)
+              values[c + 2] = tile->value(static_cast<Channel>(c), i, j);
             const auto [at, fresh] = seen.try_emplace({key.x, key.y, key.z}, values);
             shared += fresh ? 0 : 1;
             ASSERT_EQ(at->second, values) << spot.name << ", level " << level << ", tile of diamond " << id.d
@@ -80,6 +81,20 @@ TEST(Ground, TilesAgreeBitForBitWhereverTheyHoldTheSameVertex) {
       EXPECT_GT(shared, 100) << spot.name;
     }
   }
+}
+
+TEST(Ground, ATileHoldsNoMoreThanItsLevelNeeds) {
+  const auto surface = Surface::builtin(1);
+  const auto channels_at = [&](int level) {
+    int count = 0;
+    for (const TileValues<float>& channel : surface->tile(tile_of({0, level, 5, 5}))->channels)
+      count += channel.values.empty() ? 0 : 1;
+    return count;
+  };
+  EXPECT_EQ(channels_at(8), 2) << "moisture and mottle";
+  EXPECT_EQ(channels_at(9), 8) << "and roughness, prominence, what is carved and its base slope";
+  EXPECT_EQ(channels_at(19), 8);
+  EXPECT_EQ(channels_at(22), 4);
 }
 
 TEST(Ground, HeightsDoNotDependOnTheOrderTilesAreVisitedIn) {
