@@ -50,7 +50,7 @@ VertexKey vertex_key(const Node& node);
 std::uint64_t vertex_hash(std::uint64_t seed, const ivec3& octahedral_key);
 
 /// Geodetic normal of a node: the HTM vertex, computed by halving edges only; bit-identical from every
-/// diamond. Costs one walk of `level` steps; runs of nodes come cheaper from a tile (tile.h).
+/// diamond. Costs one walk of `level` steps; runs of nodes come cheaper from a tile (directions.h).
 dvec3 node_direction(const Node& node);
 
 /// The node a plane coordinate means when the lattice of diamond d is continued over its edges.
