@@ -128,8 +128,8 @@ TEST(H5, PointsOnDeepVerticesAndEdgesHaveTheOneOwnerThatExactSignsName) {
     const int level = static_cast<int>(random() % 28);
     const Corners c = globe::htm::corners({(8ULL << (2 * level)) + random() % (8ULL << (2 * level))});
     dvec3 p = k % 2 == 0 ? c[0] : globe::htm::midpoint(c[0], c[1]);
-    p[static_cast<int>(random() % 3)] =
-        hard::moved(p[static_cast<int>(random() % 3)], static_cast<int>(random() % 9) - 4);
+    const int axis = static_cast<int>(random() % 3);
+    p[axis] = hard::moved(p[axis], static_cast<int>(random() % 9) - 4);
     wrong += static_cast<std::size_t>(violations(k % 3 == 0 ? c[1] : glm::normalize(p)));
   }
   hard::report("H5", "wrong owners on and 4 ulp around " + std::to_string(count) + " deep vertices", "0",

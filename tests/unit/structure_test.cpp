@@ -66,7 +66,7 @@ std::vector<std::string> wrong_includes(const fs::path& relative, const std::str
   const std::string room = room_of(relative);
   const auto allowed = kMayInclude.find(room);
   if (allowed == kMayInclude.end()) return {relative.string() + " lies in no room that DESIGN names"};
-  for (const std::string& include : matches(text, R"re(#include\s*"([^"]+)")re")) {
+  for (const std::string& include : matches(text, R"re((?:^|\n)#include\s*"([^"]+)")re")) {
     const std::string other = room_of(include);
     const bool shader_of_the_core = other == "shaders" && room.starts_with("globe/");
     if (other != room && !shader_of_the_core && !allowed->second.contains(other))
@@ -74,7 +74,7 @@ std::vector<std::string> wrong_includes(const fs::path& relative, const std::str
   }
   if (!kWithoutGraphics.contains(room)) return wrong;
   for (const std::string& include :
-       matches(text, R"re(#include\s*<((?:epoxy|GL|GLES\d?|EGL|GLFW)/[^>]+)>)re"))
+       matches(text, R"re((?:^|\n)#include\s*<((?:epoxy|GL|GLES\d?|EGL|GLFW)/[^>]+)>)re"))
     wrong.push_back(relative.string() + " includes <" + include + ">");
   return wrong;
 }
