@@ -118,6 +118,7 @@ std::vector<BenchmarkResult> run_interleaved(std::vector<Benchmark>& benchmarks,
       benchmarks[k].run();
       results[k].ns.push_back(
           std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count());
+      if (benchmarks[k].settle) benchmarks[k].settle();
     }
   }
   return results;

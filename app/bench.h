@@ -12,6 +12,7 @@ struct Benchmark {
   std::string name;
   double items = 1;  ///< of a run, for items_per_s
   std::function<void()> run;
+  std::function<void()> settle = {};  ///< waits, unmeasured, for what the run left going in the background
 };
 
 /// A benchmark by name, made only when it is asked for.

@@ -61,6 +61,9 @@ class GlobeRenderer {
   /// than others.
   void warm_up(const gl::Framebuffer& target);
 
+  /// True while levels are being computed in the background.
+  bool is_loading() const { return stream_ != nullptr && stream_->pending() > 0; }
+
   /// Height of the camera above the ground that is drawn at the finest level under it, metres.
   double height_above_ground(const glm::dvec3& position) const;
 

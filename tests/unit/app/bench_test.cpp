@@ -35,9 +35,10 @@ TEST(MedianInterval, HoldsTheMedianInNineteenOfTwentyRuns) {
 
 TEST(RunInterleaved, RunsEveryBenchmarkOnceARound) {
   std::string order;
-  std::vector<Benchmark> benchmarks{{"a", 1, [&] { order += 'a'; }}, {"b", 1, [&] { order += 'b'; }}};
+  std::vector<Benchmark> benchmarks{{"a", 1, [&] { order += 'a'; }, {}},
+                                    {"b", 1, [&] { order += 'b'; }, [&] { order += '.'; }}};
   const auto results = run_interleaved(benchmarks, 3);
-  EXPECT_EQ(order, "ababab");
+  EXPECT_EQ(order, "ab.ab.ab.");
   EXPECT_EQ(results[0].ns.size(), 3u);
   EXPECT_EQ(results[1].name, "b");
 }
