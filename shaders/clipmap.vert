@@ -93,6 +93,14 @@ void main() {
 
   vec3 relative_km = position * 1e-3;
   vec3 round_km = relative_km * view.rounding.xxy;  // in round space the air has one thickness everywhere
+  // Far off, a vertex in the middle of a long edge lies hundreds of metres inside the planet: for the air it is lifted to its height,
+  // or the lattice would show in the haze.
+  float height_km = height * 1e-3;
+  vec3 from_centre = view.eye_km.xyz + round_km;
+  if (dot(round_km, round_km) > 400.0) {
+    float radius_km = length(from_centre);
+    round_km += from_centre * ((view.eye_km.w + height_km) / radius_km - 1.0);
+  }
   vec3 normal = normalize((view.eye_km.xyz + round_km) * view.rounding.xxy);
   vec3 t1 = normalize(slot.axis.xyz - normal * dot(slot.axis.xyz, normal));
   vec3 t2 = cross(normal, t1);
@@ -105,7 +113,6 @@ void main() {
   float facing = max(dot(normal, half_way), 0.0);
   shading.glint = 0.22 * pow(facing, 120.0) * step(0.0, shading.lit.x);
 
-  float height_km = height * 1e-3;
   if (view.rounding.z > 0.0) {
     float ground = view.eye_km.w;
     vec3 left;
