@@ -10,7 +10,7 @@ struct Slot {
   ivec4 images_a;  // nearest images of the nadir from the first node, 1/1024 cells
   ivec4 images_b;
   ivec4 coarse;    // first node - 2 * coarser slot's first node (i, j), level
-  vec4 shading;    // texture coordinate of the first node
+  vec4 shading;    // texture coordinate of the first node, and of a cell
   vec4 axis;       // shading axis of the diamond
 };
 layout(std140, binding = 1) uniform Slots { Slot slots[MAX_SLOTS]; };
@@ -22,7 +22,6 @@ layout(location = 0) in uvec2 local;     // cells from corner 0 of the patch
 layout(location = 1) in ivec4 instance;  // corner 0 from the window's first node (i, j), ±1 for the half, slot
 
 layout(location = 0) uniform ivec4 window;       // texels of the torus, morph begin, morph end, m
-layout(location = 1) uniform vec2 shading_scale; // texture coordinate a cell
 layout(location = 2) uniform int rim;            // bits 0-2: edges whose vertices are the coarser level's, 3-5: corners
 
 out Shading {
@@ -69,7 +68,7 @@ void main() {
   height = mix(height, target.w, alpha);
   Slot coarse = slots[slot.torus.w];
   shading.alpha = alpha;
-  shading.coarse_texel = vec2(node + slot.coarse.xy) * (0.5 * shading_scale) + coarse.shading.xy;
+  shading.coarse_texel = vec2(node + slot.coarse.xy) * (0.5 * coarse.shading.zw) + coarse.shading.xy;
 #endif
   position += slot.offset.xyz;
 
@@ -84,7 +83,7 @@ void main() {
   precise vec4 clip = view.clip_from_relative * vec4(position, 1.0);
   gl_Position = clip;
 
-  shading.texel = vec2(node) * shading_scale + slot.shading.xy;
+  shading.texel = vec2(node) * slot.shading.zw + slot.shading.xy;
 #ifdef MORPH
   layers = ivec3(slot.torus.z, coarse.torus.z, slot.coarse.z);
 #else

@@ -193,8 +193,8 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
   auto data = std::make_shared<LevelData>();
   LevelUpdate update;
   const int level = region.level;
-  const int shading_level = level + settings.shading_levels;
-  const int up = 1 << settings.shading_levels;
+  const int shading_level = level + settings.shading_levels_at(level);
+  const int up = 1 << settings.shading_levels_at(level);
   const int shading_n = planet::nodes_per_side(shading_level);
   data->anchor = level_anchor(settings, surface, region);
   const bool same_anchor = before != nullptr && before->anchor == data->anchor;

@@ -26,7 +26,7 @@ struct VertexBlock {
 /// The same for shading, at the level's shading level.
 struct ShadingBlock {
   int d = 0;
-  NodeRect nodes;                    ///< nodes of level + shading_levels
+  NodeRect nodes;                    ///< nodes of the shading level
   std::vector<glm::u8vec4> albedo;   ///< square root of linear light; alpha: 255 where there is water
   std::vector<glm::u16vec2> normal;  ///< normal's components along the shading frame, [-1, 1] as unorm16
 };

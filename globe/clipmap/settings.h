@@ -15,6 +15,8 @@ struct Settings {
 
   int unit() const { return 2 * m; }                ///< regions are made of trixels of this many cells
   int window() const { return 2 * s + 2 * m + 3; }  ///< nodes a side of a level's torus
+  /// The base level has a whole sphere's room in its torus: it is shaded one level finer still.
+  int shading_levels_at(int level) const { return shading_levels + (level == base_level ? 1 : 0); }
   int shading_window() const { return window() << shading_levels; }
 };
 

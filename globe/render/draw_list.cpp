@@ -97,11 +97,11 @@ DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::Clipma
         const NodeRect& coarse = levels.data(level - 1).vertices[k];
         slot.coarse = {rect.i0 - 2 * coarse.i0, rect.j0 - 2 * coarse.j0, level, 0};
       }
-      const int up = 1 << settings.shading_levels;
+      const int up = 1 << settings.shading_levels_at(level);
       const double size = settings.shading_window();
       slot.shading = {static_cast<float>((modulo(rect.i0 * up, settings.shading_window()) + 0.5) / size),
                       static_cast<float>((modulo(rect.j0 * up, settings.shading_window()) + 0.5) / size),
-                      0.0f, 0.0f};
+                      static_cast<float>(up / size), static_cast<float>(up / size)};
       slot.axis = glm::vec4(glm::vec3(clipmap::shading_axis(d)), 0.0f);
       list.slots.push_back(slot);
     }

@@ -290,7 +290,6 @@ void GlobeRenderer::draw_ground(const DrawList& list, FrameStats& stats) {
 void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay) {
   const clipmap::Settings& c = settings_.clipmap;
   const clipmap::MorphBand band = clipmap::morph_band(c);
-  const float scale = static_cast<float>(1 << c.shading_levels) / static_cast<float>(c.shading_window());
   std::size_t first = 0;
   const gl::Program* bound = nullptr;
   for (const Batch& batch : list.batches) {
@@ -298,7 +297,6 @@ void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay)
     if (bound != &program) {
       program.use();
       program.set(0, glm::ivec4(c.window(), band.begin, band.end, c.m));
-      program.set(1, glm::vec2(scale));
       if (settings_.show != Show::kGround || settings_.wireframe) {
         program.set(3, overlay);
         program.set(4, static_cast<int>(settings_.show));

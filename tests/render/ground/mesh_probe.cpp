@@ -97,7 +97,6 @@ std::vector<ProbeVertex> MeshProbe::triangles(const Camera& camera, float fade, 
     const globe::gl::Program& program = programs_[static_cast<std::size_t>(kind)];
     program.use();
     program.set(0, glm::ivec4(settings_.window(), band.begin, band.end, settings_.m));
-    program.set(1, glm::vec2(1.0f));
     if (kind == Kind::kRim) program.set(2, batch.rim | batch.rim_corners << 3);
     const std::size_t count = order.size() * batch.instances.size();
     const Buffer recorded(count * sizeof(glm::vec4));
