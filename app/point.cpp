@@ -17,7 +17,7 @@ namespace app {
 namespace {
 
 using GeographicLib::DMS;
-using globe::Error;
+using globe::UsageError;
 
 constexpr const char* kHowToWrite =
     "write LAT LON [ALT], degrees-minutes-seconds, UTM (33N 500000 4000000) or MGRS (33TWN8000090000)";
@@ -43,7 +43,7 @@ std::optional<double> plain_number(std::string_view word) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || error == std::errc::invalid_argument) return std::nullopt;
   if (error == std::errc::result_out_of_range)
-    throw Error(in_quotes(word), "is out of the range of numbers", "write degrees");
+    throw UsageError(in_quotes(word), "is out of the range of numbers", "write degrees");
   return value;
 }
 
@@ -54,7 +54,7 @@ std::vector<std::string> words_of(std::string_view text) {
   for (const char c : text) {
     if (c == ',' || is_space(c)) {
       if (c == ',' && (words.empty() || after_comma))
-        throw Error("point " + in_quotes(text), "a field is empty", kHowToWrite);
+        throw UsageError("point " + in_quotes(text), "a field is empty", kHowToWrite);
       after_comma = after_comma || c == ',';
       in_word = false;
       continue;
@@ -64,7 +64,7 @@ std::vector<std::string> words_of(std::string_view text) {
     after_comma = false;
     words.back() += c;
   }
-  if (after_comma) throw Error("point " + in_quotes(text), "a field is empty", kHowToWrite);
+  if (after_comma) throw UsageError("point " + in_quotes(text), "a field is empty", kHowToWrite);
   return words;
 }
 
@@ -117,8 +117,8 @@ Angle angle_of(const std::string& word) {
   }
   for (std::size_t k = 1; k + 1 < word.size(); ++k) {
     if (upper(word[k]) == 'E')
-      throw Error("angle " + in_quotes(word), "has an E in the middle",
-                  "use exponents with plain numbers only");
+      throw UsageError("angle " + in_quotes(word), "has an E in the middle",
+                       "use exponents with plain numbers only");
   }
   Angle angle;
   angle.degrees = DMS::Decode(word, angle.kind);
@@ -127,12 +127,12 @@ Angle angle_of(const std::string& word) {
 
 Point checked(double lat_deg, double lon_deg) {
   if (!std::isfinite(lat_deg) || !std::isfinite(lon_deg))
-    throw Error("point", "a coordinate is not a finite number", kHowToWrite);
+    throw UsageError("point", "a coordinate is not a finite number", kHowToWrite);
   if (std::abs(lat_deg) > 90.0) {
     std::array<char, 32> number{};
     const auto end = std::to_chars(number.data(), number.data() + number.size(), lat_deg).ptr;
-    throw Error("latitude " + std::string(number.data(), end), "is beyond 90 degrees",
-                "write latitude first");
+    throw UsageError("latitude " + std::string(number.data(), end), "is beyond 90 degrees",
+                     "write latitude first");
   }
   double lon = std::remainder(lon_deg, 360.0);  // exact
   if (lon >= 180.0) lon -= 360.0;
@@ -143,8 +143,8 @@ Point point_from_angles(const std::vector<std::string>& words) {
   Angle a = angle_of(words[0]);
   Angle b = angle_of(words[1]);
   if (a.kind != DMS::NONE && a.kind == b.kind)
-    throw Error("point " + in_quotes(words[0] + " " + words[1]),
-                a.kind == DMS::LATITUDE ? "has two latitudes" : "has two longitudes", kHowToWrite);
+    throw UsageError("point " + in_quotes(words[0] + " " + words[1]),
+                     a.kind == DMS::LATITUDE ? "has two latitudes" : "has two longitudes", kHowToWrite);
   if (a.kind == DMS::LONGITUDE || b.kind == DMS::LATITUDE) std::swap(a, b);
   Point point = checked(a.degrees, b.degrees);
   if (words.size() == 3) {
@@ -167,8 +167,8 @@ Point point_from_utm(const std::vector<std::string>& words) {
   const auto x = plain_number(words[1]);
   const auto y = plain_number(words[2]);
   if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y))
-    throw Error("UTM " + in_quotes(words[1] + " " + words[2]), "is not an easting and a northing in metres",
-                kHowToWrite);
+    throw UsageError("UTM " + in_quotes(words[1] + " " + words[2]),
+                     "is not an easting and a northing in metres", kHowToWrite);
   return point_from_zone(zone, north, *x, *y);
 }
 
@@ -194,8 +194,8 @@ double parse_length_m(std::string_view text) {
       std::find_if(kUnits.begin(), kUnits.end(), [&](const Unit& u) { return u.name == unit; });
   const auto value = plain_number(text.substr(0, digits));
   if (!value || (known == kUnits.end() && !unit.empty()))
-    throw Error("length " + in_quotes(text), "is not a number of m, km, ft, mi or nmi",
-                "write 1200, 1.2km or 4000ft");
+    throw UsageError("length " + in_quotes(text), "is not a number of m, km, ft, mi or nmi",
+                     "write 1200, 1.2km or 4000ft");
   return unit.empty() ? *value : *value * known->metres;
 }
 
@@ -211,9 +211,9 @@ Point parse_point(std::string_view text) {
       return point_from_utm(words);
     if (words.size() == 2 || words.size() == 3) return point_from_angles(words);
   } catch (const GeographicLib::GeographicErr& error) {
-    throw Error("point " + in_quotes(text), error.what(), kHowToWrite);
+    throw UsageError("point " + in_quotes(text), error.what(), kHowToWrite);
   }
-  throw Error("point " + in_quotes(text), "is not a place", kHowToWrite);
+  throw UsageError("point " + in_quotes(text), "is not a place", kHowToWrite);
 }
 
 }  // namespace app

@@ -18,11 +18,11 @@ struct Point {
 ///
 /// Latitude first, unless the letters say otherwise. Plain numbers are read by from_chars before anything
 /// else: GeographicLib's GeoCoords would take the e of `1e-7` for east. Where `33N 10 500` could be a
-/// latitude or a zone it is a zone, as in GeoCoords. Throws globe::Error: no point, |latitude| > 90, not
+/// latitude or a zone it is a zone, as in GeoCoords. Throws globe::UsageError: no point, |latitude| > 90, not
 /// finite.
 Point parse_point(std::string_view text);
 
-/// Metres of a length with or without a unit: m (also without), km, ft, mi, nmi. Throws globe::Error.
+/// Metres of a length with or without a unit: m (also without), km, ft, mi, nmi. Throws globe::UsageError.
 double parse_length_m(std::string_view text);
 
 }  // namespace app
