@@ -89,12 +89,12 @@ Benchmark strip_update() {
   const dvec3 u = globe::geo::normal_from_degrees(20.0, 30.0);
   clipmap::GridPoint point = clipmap::nadir(u, 16);
   auto from = std::make_shared<clipmap::LevelUpdate>(
-      clipmap::update_level(settings, *surface, clipmap::make_region(settings, point), nullptr));
+      clipmap::update_level(settings, *surface, clipmap::make_region(settings, point), {}, nullptr));
   point.at.i += settings.unit() * clipmap::kSubcell;
   const clipmap::Region moved = clipmap::make_region(settings, point);
-  clipmap::update_level(settings, *surface, moved, from->data.get());
+  clipmap::update_level(settings, *surface, moved, {}, from->data.get());
   return {"clipmap.strip_update.l16", 1,
-          [=] { clipmap::update_level(settings, *surface, moved, from->data.get()); }};
+          [=] { clipmap::update_level(settings, *surface, moved, {}, from->data.get()); }};
 }
 
 /// A tile of synthesised ground whose parent is at hand.

@@ -1,6 +1,7 @@
 #define OUT(type) out type
 #include "lib/clipmap.glsl"
 #include "lib/atmosphere.glsl"
+#include "lib/lit_ground.glsl"
 #include "lib/view.glsl"
 
 // One layer of the windows: a level's share of one diamond. Mirrored by render::SlotBlock.
@@ -11,7 +12,6 @@ struct Slot {
   ivec4 images_b;
   ivec4 coarse;    // first node - 2 * coarser slot's first node (i, j), level
   vec4 shading;    // texture coordinate of the first node, and of a cell
-  vec4 axis;       // shading axis of the diamond
 };
 layout(std140, binding = 1) uniform Slots { Slot slots[MAX_SLOTS]; };
 
@@ -25,18 +25,23 @@ layout(location = 0) uniform ivec4 window;       // texels of the torus, morph b
 layout(location = 2) uniform int rim;            // bits 0-2: edges whose vertices are the coarser level's, 3-5: corners
 
 out Shading {
-  vec3 lit;         // sun along the normal, t1, t2
-  vec3 sunlight;    // at the ground, what is left of it at the eye
+  vec3 sunlight;  // at the ground, what is left of it at the eye, times kSunRange
   vec3 skylight;
   vec3 haze;
+#ifdef SHADE_FINE
   vec2 texel;
-#ifdef MORPH
-  vec2 coarse_texel;
-  float alpha;
 #endif
+#ifdef SHADE_COARSE
+  vec2 coarse_texel;
+#endif
+#if defined(SHADE_FINE) && defined(SHADE_COARSE)
+  float share;  // of the coarser level
+#endif
+#ifdef GLINT
   float glint;
+#endif
 } shading;
-flat out ivec3 layers;  // fine, coarse, level
+flat out vec3 layers;  // fine, coarse, level
 
 invariant gl_Position;
 
@@ -67,8 +72,12 @@ void main() {
                   exact_mix(position.z, target.z, alpha));
   height = mix(height, target.w, alpha);
   Slot coarse = slots[slot.torus.w];
-  shading.alpha = alpha;
+#if defined(SHADE_FINE) && defined(SHADE_COARSE)
+  shading.share = shading_share(alpha);
+#endif
+#ifdef SHADE_COARSE
   shading.coarse_texel = vec2(node + slot.coarse.xy) * (0.5 * coarse.shading.zw) + coarse.shading.xy;
+#endif
 #endif
   position += slot.offset.xyz;
 
@@ -83,11 +92,13 @@ void main() {
   precise vec4 clip = view.clip_from_relative * vec4(position, 1.0);
   gl_Position = clip;
 
+#ifdef SHADE_FINE
   shading.texel = vec2(node) * slot.shading.zw + slot.shading.xy;
+#endif
 #ifdef MORPH
-  layers = ivec3(slot.torus.z, coarse.torus.z, slot.coarse.z);
+  layers = vec3(slot.torus.z, coarse.torus.z, slot.coarse.z);
 #else
-  layers = ivec3(slot.torus.z, slot.torus.z, slot.coarse.z);
+  layers = vec3(slot.torus.z, slot.torus.z, slot.coarse.z);
 #endif
 
   vec3 relative_km = position * 1e-3;
@@ -101,16 +112,14 @@ void main() {
     round_km += from_centre * ((view.eye_km.w + height_km) / radius_km - 1.0);
   }
   vec3 normal = normalize((view.eye_km.xyz + round_km) * view.rounding.xxy);
-  vec3 t1 = normalize(slot.axis.xyz - normal * dot(slot.axis.xyz, normal));
-  vec3 t2 = cross(normal, t1);
   vec3 sun = view.sun.xyz;
-  shading.lit = vec3(dot(sun, normal), dot(sun, t1), dot(sun, t2));
-
+  float cos_sun = dot(sun, normal);
   float away = length(round_km);
   vec3 direction = round_km / max(away, 1e-9);
+#ifdef GLINT
   vec3 half_way = normalize(sun - direction);
-  float facing = max(dot(normal, half_way), 0.0);
-  shading.glint = 0.22 * pow(facing, 120.0) * step(0.0, shading.lit.x);
+  shading.glint = 0.22 / kSunRange * pow(max(dot(normal, half_way), 0.0), 120.0) * step(0.0, cos_sun);
+#endif
 
   if (view.rounding.z > 0.0) {
     float ground = view.eye_km.w;
@@ -120,18 +129,22 @@ void main() {
     float along = dot(view.eye_km.xyz, direction);
     float top = ground + kAirTop;
     float entry = radius > top ? max(-along - sqrt(max(along * along - radius * radius + top * top, 0.0)), 0.0) : 0.0;
-    vec3 sun_here = sun_transmittance(max(height_km, 0.0), shading.lit.x, ground);
-    shading.haze = haze(view.eye_km.xyz, direction, min(entry, away), away, sun, view.sun_at_eye.xyz, sun_here, shading.lit.x,
+    vec3 sun_here = sun_transmittance(max(height_km, 0.0), cos_sun, ground);
+    shading.haze = haze(view.eye_km.xyz, direction, min(entry, away), away, sun, view.sun_at_eye.xyz, sun_here, cos_sun,
                         ground, HAZE_STEPS, left);
     // In twilight the sun's share is not linear along a ray: sampled there, and there only (a loop of no turns costs nothing).
     int exact_steps = view.sun_at_eye.w > 0.0 ? 2 * HAZE_STEPS : 0;
     vec4 exact = sky_light(view.eye_km.xyz, direction, min(entry, away), away, sun, ground, exact_steps);
     shading.haze = view.sun.w * (exact_steps > 0 ? with_mie(exact, dot(direction, sun)) : shading.haze);
     shading.sunlight = view.sun.w * left * sun_here * 0.3183099;
-    shading.skylight = view.sun.w * left * sky_irradiance(max(height_km, 0.0), shading.lit.x) * 0.3183099;
+    shading.skylight = view.sun.w * left * sky_irradiance(max(height_km, 0.0), cos_sun) * 0.3183099;
   } else {
     shading.haze = vec3(0.0);
     shading.sunlight = vec3(view.sun.w * 0.3183099);
     shading.skylight = vec3(view.sun.w * 0.3183099 * 0.004);
   }
+  // Ground below the sun's horizon is dark whatever its slope, with a penumbra as wide as the sun and the air make it.
+  shading.sunlight *= kSunRange * smoothstep(-0.03, 0.03, cos_sun) * view.rounding.w;
+  shading.skylight *= view.rounding.w;
+  shading.haze *= view.rounding.w;
 }

@@ -98,6 +98,32 @@ VertexBlock make_vertex_block(const Surface& surface, int level, int d, const No
   return block;
 }
 
+/// The nodes of `rect` that were held before, each in its new place; the others are left to be filled.
+ShadingNodes moved_ground(const NodeRect& rect, const NodeRect& before_rect, const ShadingNodes* before) {
+  ShadingNodes ground;
+  ground.resize(rect);
+  const NodeRect common = before_rect.empty() ? NodeRect{} : intersect(rect, before_rect);
+  if (common.empty()) return ground;
+  const auto width = static_cast<std::ptrdiff_t>(common.width());
+  for (int j = common.j0; j <= common.j1; ++j) {
+    const auto from = static_cast<std::ptrdiff_t>(at(before_rect, common.i0, j));
+    const auto to = static_cast<std::ptrdiff_t>(at(rect, common.i0, j));
+    std::copy_n(before->albedo.begin() + from, width, ground.albedo.begin() + to);
+    std::copy_n(before->normal.begin() + from, width, ground.normal.begin() + to);
+  }
+  return ground;
+}
+
+ShadingBlock make_shading_block(const Lighting& lighting, int level, int d, const NodeRect& part,
+                                const NodeRect& held, const ShadingNodes& ground) {
+  ShadingBlock block{d, part, lit_nodes(lighting, level, d, part, held, ground), {}};
+  block.water.reserve(block.lit.size());
+  for (int j = part.j0; j <= part.j1; ++j) {
+    for (int i = part.i0; i <= part.i1; ++i) block.water.push_back(ground.albedo[at(held, i, j)].a);
+  }
+  return block;
+}
+
 PatchBounds bound_patch(const Settings& settings, const LevelData& data, const Patch& patch) {
   const auto d = static_cast<std::size_t>(patch.trixel.d);
   glm::vec3 low(std::numeric_limits<float>::max());
@@ -107,15 +133,17 @@ PatchBounds bound_patch(const Settings& settings, const LevelData& data, const P
     return data.positions[d][at(data.vertices[d], node.x, node.y)];
   };
   float highest = std::numeric_limits<float>::lowest();
+  float lowest = std::numeric_limits<float>::max();
   for (int b = 0; b <= settings.m; ++b) {
     for (int a = 0; a + b <= settings.m; ++a) {
       const glm::vec4 vertex = position(a, b);
       low = glm::min(low, glm::vec3(vertex));
       high = glm::max(high, glm::vec3(vertex));
       highest = std::max(highest, vertex.w);
+      lowest = std::min(lowest, vertex.w);
     }
   }
-  PatchBounds bounds{(low + high) * 0.5f, 0.0f, highest};
+  PatchBounds bounds{(low + high) * 0.5f, 0.0f, highest, lowest};
   for (int b = 0; b <= settings.m; ++b) {
     for (int a = 0; a + b <= settings.m; ++a) {
       bounds.radius = std::max(bounds.radius, glm::distance(bounds.centre, glm::vec3(position(a, b))));
@@ -147,7 +175,7 @@ std::size_t LevelUpdate::upload_bytes() const {
   for (const VertexBlock& block : vertex_blocks)
     bytes += (block.position.size() + block.coarse.size()) * sizeof(glm::vec4);
   for (const ShadingBlock& block : shading_blocks) {
-    bytes += block.albedo.size() * sizeof(glm::u8vec4) + block.normal.size() * sizeof(glm::u16vec2);
+    bytes += block.lit.size() * sizeof(glm::u8vec4) + block.water.size();
   }
   return bytes;
 }
@@ -163,14 +191,6 @@ dvec3 level_anchor(const Settings& settings, const Surface& surface, const Regio
   }
   return geo::ecef_from_normal(surface.ellipsoid(), planet::node_direction(node),
                                drawn_height(surface, surface.height(node)));
-}
-
-dvec3 shading_axis(int d) {
-  constexpr double kHalf = 0.70710678118654752440;
-  constexpr std::array<std::array<double, 2>, 4> kAxes{
-      {{-kHalf, kHalf}, {-kHalf, -kHalf}, {kHalf, -kHalf}, {kHalf, kHalf}}};
-  const auto& axis = kAxes[static_cast<std::size_t>(d)];
-  return {axis[0], axis[1], 0.0};
 }
 
 std::vector<NodeRect> difference(const NodeRect& wanted, const NodeRect& held) {
@@ -189,7 +209,7 @@ std::vector<NodeRect> difference(const NodeRect& wanted, const NodeRect& held) {
 }
 
 LevelUpdate update_level(const Settings& settings, const Surface& surface, Region region,
-                         const LevelData* before) {
+                         const Lighting& lighting, const LevelData* before) {
   auto data = std::make_shared<LevelData>();
   LevelUpdate update;
   const int level = region.level;
@@ -226,11 +246,18 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
     // One guard node all round: bilinear look-ups at the border of the region read it, with weight zero.
     data->shading[k] = {std::max(rect.i0 * up - 1, 0), std::min(rect.i1 * up + 1, shading_n),
                         std::max(rect.j0 * up - 1, 0), std::min(rect.j1 * up + 1, shading_n)};
-    for (const NodeRect& part :
-         difference(data->shading[k], before != nullptr ? before->shading[k] : NodeRect{})) {
-      update.shading_blocks.push_back(make_shading_block(surface, shading_level, d, part));
-    }
+    const NodeRect before_rect = before != nullptr ? before->shading[k] : NodeRect{};
+    data->ground[k] =
+        moved_ground(data->shading[k], before_rect, before != nullptr ? &before->ground[k] : nullptr);
+    const std::vector<NodeRect> came_in = difference(data->shading[k], before_rect);
+    for (const NodeRect& part : came_in)
+      make_shading_nodes(surface, shading_level, d, part, data->shading[k], data->ground[k]);
+    const bool same_light = before != nullptr && before->lighting == lighting;
+    for (const NodeRect& part : same_light ? came_in : std::vector<NodeRect>{data->shading[k]})
+      update.shading_blocks.push_back(
+          make_shading_block(lighting, shading_level, d, part, data->shading[k], data->ground[k]));
   }
+  data->lighting = lighting;
   data->region = std::move(region);
   data->patches = make_ring(settings, data->region, nullptr);
   std::sort(data->patches.begin(), data->patches.end(),

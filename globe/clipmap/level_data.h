@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "globe/clipmap/lighting.h"
 #include "globe/clipmap/region.h"
 #include "globe/planet/surface.h"
 
@@ -26,9 +27,9 @@ struct VertexBlock {
 /// The same for shading, at the level's shading level.
 struct ShadingBlock {
   int d = 0;
-  NodeRect nodes;                    ///< nodes of the shading level
-  std::vector<glm::u8vec4> albedo;   ///< square root of linear light; alpha: 255 where there is water
-  std::vector<glm::u16vec2> normal;  ///< normal's components along the shading frame, [-1, 1] as unorm16
+  NodeRect nodes;                   ///< nodes of the shading level
+  std::vector<glm::u8vec4> lit;     ///< shaders/lib/lit_ground.glsl
+  std::vector<std::uint8_t> water;  ///< 255 where there is open water
 };
 
 /// Sphere around everything a patch can be drawn as, metres from the level's anchor, and how high above the
@@ -37,6 +38,7 @@ struct PatchBounds {
   glm::vec3 centre{0.0f};
   float radius = 0;
   float highest = 0;
+  float lowest = 0;  ///< height of its lowest vertex
 };
 
 /// What is resident of one level: CPU side of its windows. Immutable once made; the next one is made from it.
@@ -46,6 +48,8 @@ struct LevelData {
   std::array<NodeRect, planet::kDiamonds> vertices;  ///< resident nodes of each diamond
   std::array<NodeRect, planet::kDiamonds> shading;   ///< resident nodes of each diamond at the shading level
   std::array<std::vector<glm::vec4>, planet::kDiamonds> positions;  ///< of `vertices`, as uploaded
+  std::array<ShadingNodes, planet::kDiamonds> ground;  ///< of `shading`, to be lit anew when the sun moves
+  Lighting lighting;                                   ///< that the uploaded shading was lit with
   std::vector<Patch> patches;       ///< every patch of the region, sorted by trixel, rim marked
   std::vector<PatchBounds> bounds;  ///< of `patches`
   double lowest_m = 0;              ///< height that no triangle between `positions` lies below
@@ -65,13 +69,9 @@ struct LevelUpdate {
 dvec3 level_anchor(const Settings& settings, const planet::Surface& surface, const Region& region);
 
 /// Computes what a level needs for `region`: only nodes that `before` (null: nothing) does not hold, unless
-/// the anchor changed. Positions in double, rounded once. Safe to call from any thread.
+/// the anchor or the light changed. Positions in double, rounded once. Safe to call from any thread.
 LevelUpdate update_level(const Settings& settings, const planet::Surface& surface, Region region,
-                         const LevelData* before);
-
-/// Axis from which the shading frame of a diamond is made: t1 is its part perpendicular to the normal u, t2 =
-/// u x t1. East on the diamond's central meridian; nowhere in the diamond along u, the poles included.
-dvec3 shading_axis(int d);
+                         const Lighting& lighting, const LevelData* before);
 
 /// Parts of `wanted` outside `held`: at most four rectangles without overlap.
 std::vector<NodeRect> difference(const NodeRect& wanted, const NodeRect& held);

@@ -115,7 +115,7 @@ std::uint8_t encode_albedo(float linear) {
 double water_clarity(double height) { return std::exp(height / 25.0); }
 
 void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const NodeRect& part,
-                     ShadingBlock& block) {
+                     const NodeRect& held, ShadingNodes& nodes) {
   const TileId& id = tile.id;
   const planet::TileValues<double>& h = tile.shading_height();
   const TileMetric metrics(surface.ellipsoid(), id);
@@ -137,11 +137,10 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
       const bool water = sea && ground.height_m < 0.0;
       const glm::vec3 color = planet::albedo(ground);
       const bool open_water = water && color.r < 0.3f;  // not pack ice
-      const std::size_t k =
-          static_cast<std::size_t>(j - block.nodes.j0) * static_cast<std::size_t>(block.nodes.width()) +
-          static_cast<std::size_t>(i - block.nodes.i0);
-      block.normal[k] = encode_normal(water ? ground.slope * water_clarity(ground.height_m) : ground.slope);
-      block.albedo[k] = {encode_albedo(color.r), encode_albedo(color.g), encode_albedo(color.b),
+      const std::size_t k = static_cast<std::size_t>(j - held.j0) * static_cast<std::size_t>(held.width()) +
+                            static_cast<std::size_t>(i - held.i0);
+      nodes.normal[k] = encode_normal(water ? ground.slope * water_clarity(ground.height_m) : ground.slope);
+      nodes.albedo[k] = {encode_albedo(color.r), encode_albedo(color.g), encode_albedo(color.b),
                          open_water ? 255 : 0};
     }
   }
@@ -149,11 +148,8 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
 
 }  // namespace
 
-ShadingBlock make_shading_block(const Surface& surface, int level, int d, const NodeRect& nodes) {
-  ShadingBlock block{d, nodes, {}, {}};
-  const auto count = static_cast<std::size_t>(nodes.width()) * static_cast<std::size_t>(nodes.height());
-  block.albedo.resize(count);
-  block.normal.resize(count);
+void make_shading_nodes(const Surface& surface, int level, int d, const NodeRect& nodes, const NodeRect& held,
+                        ShadingNodes& ground) {
   const int cells = std::min(kTileCells, planet::nodes_per_side(level));
   const int last = planet::nodes_per_side(level) / cells - 1;
   for (int tj = std::min(nodes.j0 / cells, last); tj <= std::min(nodes.j1 / cells, last); ++tj) {
@@ -161,10 +157,9 @@ ShadingBlock make_shading_block(const Surface& surface, int level, int d, const 
       const TileId id{d, level, ti, tj};
       const NodeRect part{std::max(nodes.i0, id.first_i()), std::min(nodes.i1, id.first_i() + cells),
                           std::max(nodes.j0, id.first_j()), std::min(nodes.j1, id.first_j() + cells)};
-      shade_tile_part(surface, *surface.tile(id), part, block);
+      shade_tile_part(surface, *surface.tile(id), part, held, ground);
     }
   }
-  return block;
 }
 
 }  // namespace globe::clipmap

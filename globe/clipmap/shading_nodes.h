@@ -1,6 +1,7 @@
 #pragma once
 
-#include "globe/clipmap/level_data.h"
+#include "globe/clipmap/lighting.h"
+#include "globe/planet/surface.h"
 
 namespace globe::clipmap {
 
@@ -10,6 +11,8 @@ namespace globe::clipmap {
 /// diamond's shading frame (shading_axis). The lattice's metric is taken from node directions every 16 cells
 /// and interpolated between: an error in the slope's direction below 1 % from level 8 on. Under water the
 /// relief fades with depth as the light does.
-ShadingBlock make_shading_block(const planet::Surface& surface, int level, int d, const NodeRect& nodes);
+/// Written into `ground`, which holds the nodes `held`.
+void make_shading_nodes(const planet::Surface& surface, int level, int d, const NodeRect& nodes,
+                        const NodeRect& held, ShadingNodes& ground);
 
 }  // namespace globe::clipmap

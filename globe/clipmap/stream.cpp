@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kStepCost = 1.5;  ///< levels filled from nothing in one step, strips counted by their share
 constexpr double kStripCost = 0.15;
+constexpr int kLitPerStep = 2;  ///< levels lit anew in one step because the sun moved: some 2 MB to send each
 constexpr int kNiceness = 5;
 
 /// Rough share of a level's region that stays when its nadir moves to a point.
@@ -32,8 +33,10 @@ std::size_t StateUpdate::upload_bytes() const {
 
 bool still_holds(const Settings& settings, const ClipmapState& state, const Target& target) {
   if (state.finest_level() < target.finest) return false;
-  for (int level = settings.base_level + 1; level <= target.finest; ++level) {
+  for (int level = settings.base_level; level <= target.finest; ++level) {
     const auto& data = state.levels[static_cast<std::size_t>(level - settings.base_level)];
+    if (!(data->lighting == target.lighting)) return false;
+    if (level == settings.base_level) continue;
     if (!(nearest_lattice_node(nadir(target.u, level), settings.unit()) == data->region.centre)) return false;
   }
   return true;
@@ -46,25 +49,34 @@ StateUpdate advance(const Settings& settings, const planet::Surface& surface, co
     const auto index = static_cast<std::size_t>(k);
     return before != nullptr && index < before->levels.size() ? before->levels[index].get() : nullptr;
   };
-  const auto stays = [&](int k) {
+  const auto in_place = [&](int k) {
     const LevelData* held = held_at(k);
     if (held == nullptr) return false;
     const GridPoint point = nadir(target.u, settings.base_level + k);
     return k == 0 || nearest_lattice_node(point, settings.unit()) == held->region.centre;
   };
+  const auto is_lit = [&](int k) { return held_at(k)->lighting == target.lighting; };
   int count = wanted;
+  int last_lit = wanted;  // levels beyond it keep the light they have, if that is all that is wrong with them
   if (stride == Stride::kStep) {
     double cost = 0.0;
+    int lit = 0;
+    last_lit = -1;
     for (count = 0; count < wanted && cost < kStepCost; ++count) {
-      if (stays(count)) continue;
+      if (in_place(count)) {
+        lit += is_lit(count) ? 0 : 1;
+        if (lit <= kLitPerStep) last_lit = count;
+        continue;
+      }
       const LevelData* held = held_at(count);
       const bool overlaps =
           held != nullptr && share_kept(settings, *held, nadir(target.u, settings.base_level + count)) > 0.5;
       cost += overlaps ? kStripCost : 1.0;
     }
   }
+  const auto stays = [&](int k) { return in_place(k) && (is_lit(k) || k > last_lit); };
   auto state = std::make_shared<ClipmapState>();
-  state->target = {target.u, settings.base_level + count - 1};
+  state->target = {target.u, settings.base_level + count - 1, target.lighting};
   state->levels.resize(static_cast<std::size_t>(count));
   std::vector<LevelUpdate> updates(static_cast<std::size_t>(count));
   tbb::parallel_for(0, count, [&](int k) {
@@ -73,8 +85,9 @@ StateUpdate advance(const Settings& settings, const planet::Surface& surface, co
       state->levels[index] = before->levels[index];
       return;
     }
-    updates[index] = update_level(
-        settings, surface, make_region(settings, nadir(target.u, settings.base_level + k)), held_at(k));
+    updates[index] =
+        update_level(settings, surface, make_region(settings, nadir(target.u, settings.base_level + k)),
+                     target.lighting, held_at(k));
     state->levels[index] = updates[index].data;
   });
   StateUpdate update{std::move(state), {}};

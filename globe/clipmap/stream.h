@@ -12,10 +12,11 @@
 
 namespace globe::clipmap {
 
-/// Where the clipmap is wanted: under which normal, and down to which level.
+/// Where the clipmap is wanted: under which normal, down to which level, and in what light.
 struct Target {
   dvec3 u{0.0, 0.0, 1.0};
   int finest = 0;
+  Lighting lighting{};
 };
 
 /// A whole clipmap, base level first. All levels belong to one nadir, so the mesh they make is closed.
@@ -42,11 +43,12 @@ enum class Stride { kWhole, kStep };
 /// Computes the state for a target from the state before (null: nothing). Levels whose region stays are kept
 /// as they are. Levels are independent of each other and computed on all cores. A step stops at the level
 /// after which some two levels had to be filled from nothing; its state then is coarser than the target.
+/// Levels that only the light has left behind stay as they are once a step has lit a few of them anew.
 StateUpdate advance(const Settings& settings, const planet::Surface& surface, const Target& target,
                     const ClipmapState* before, Stride stride);
 
 /// Regions move only when the nadir comes closer to another node of their lattice: true when every level of
-/// `state` is still the right one for `u` and it reaches `finest`.
+/// `state` is still the right one for `u` and lit as asked, and it reaches `finest`.
 bool still_holds(const Settings& settings, const ClipmapState& state, const Target& target);
 
 /// Computes states on a thread of its own, so that the thread that draws never waits.

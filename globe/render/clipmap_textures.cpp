@@ -24,15 +24,13 @@ ClipmapTextures::ClipmapTextures(const clipmap::Settings& settings)
     : settings_(settings),
       positions_(gl::Texture::array(GL_RGBA32F, settings.window(), settings.window(), kFirstLayers)),
       coarse_(gl::Texture::array(GL_RGBA32F, settings.window(), settings.window(), kFirstLayers)),
-      albedo_(
-          gl::Texture::array(GL_RGBA8, settings.shading_window(), settings.shading_window(), kFirstLayers)),
-      normals_(
-          gl::Texture::array(GL_RG16, settings.shading_window(), settings.shading_window(), kFirstLayers)) {
+      lit_(gl::Texture::array(GL_RGBA8, settings.shading_window(), settings.shading_window(), kFirstLayers)),
+      water_(gl::Texture::array(GL_R8, settings.shading_window(), settings.shading_window(), kFirstLayers)) {
   for (int layer = kFirstLayers - 1; layer >= 0; --layer) free_.push_back(layer);
   set_sampling(positions_, GL_NEAREST);
   set_sampling(coarse_, GL_NEAREST);
-  set_sampling(albedo_, GL_LINEAR);
-  set_sampling(normals_, GL_LINEAR);
+  set_sampling(lit_, GL_LINEAR);
+  set_sampling(water_, GL_LINEAR);
 }
 
 std::size_t ClipmapTextures::apply(const clipmap::StateUpdate& update) {
@@ -60,8 +58,8 @@ std::size_t ClipmapTextures::apply(const clipmap::StateUpdate& update) {
     }
     for (const clipmap::ShadingBlock& block : level.shading_blocks) {
       const gl::TexelBox box = box_of(block.nodes, layer(l, block.d));
-      albedo_.upload_wrapped(box, block.albedo.data());
-      normals_.upload_wrapped(box, block.normal.data());
+      lit_.upload_wrapped(box, block.lit.data());
+      water_.upload_wrapped(box, block.water.data());
     }
   }
   return update.upload_bytes();
@@ -83,30 +81,29 @@ int ClipmapTextures::acquire(int level, int d) {
 
 void ClipmapTextures::grow() {
   const int before = positions_.layers();
-  for (gl::Texture* texture : {&positions_, &coarse_, &albedo_, &normals_})
-    *texture = texture->grown(2 * before);
+  for (gl::Texture* texture : {&positions_, &coarse_, &lit_, &water_}) *texture = texture->grown(2 * before);
   set_sampling(positions_, GL_NEAREST);
   set_sampling(coarse_, GL_NEAREST);
-  set_sampling(albedo_, GL_LINEAR);
-  set_sampling(normals_, GL_LINEAR);
+  set_sampling(lit_, GL_LINEAR);
+  set_sampling(water_, GL_LINEAR);
   for (int layer = 2 * before - 1; layer >= before; --layer) free_.push_back(layer);
 }
 
 void ClipmapTextures::bind() const {
   positions_.bind(0);
   coarse_.bind(1);
-  albedo_.bind(2);
-  normals_.bind(3);
+  lit_.bind(2);
+  water_.bind(3);
 }
 
 std::size_t ClipmapTextures::bytes() const {
-  return positions_.bytes() + coarse_.bytes() + albedo_.bytes() + normals_.bytes();
+  return positions_.bytes() + coarse_.bytes() + lit_.bytes() + water_.bytes();
 }
 
 std::size_t ClipmapTextures::layer_bytes() const {
   const auto w = static_cast<std::size_t>(settings_.window());
   const auto shading = static_cast<std::size_t>(settings_.shading_window());
-  return 32 * w * w + 8 * shading * shading;
+  return 32 * w * w + 5 * shading * shading;
 }
 
 }  // namespace globe::render

@@ -12,7 +12,7 @@ namespace globe::render {
 
 /// The GPU side of the windows: four array textures of one toroidal layer for each (level, diamond) in use.
 ///
-/// Bytes of a layer: 2 · 16 w² + 8 (w·2^k)², w the side of the vertex window and k the shading levels; layers
+/// Bytes of a layer: 2 · 16 w² + 5 (w·2^k)², w the side of the vertex window and k the shading levels; layers
 /// come from a pool that doubles when it is full.
 class ClipmapTextures {
  public:
@@ -24,13 +24,13 @@ class ClipmapTextures {
   /// Layer of a level's share of a diamond; -1 when nothing of it is resident.
   int layer(int level, int d) const;
 
-  /// Binds positions, coarse positions, albedo and normals to units 0 to 3.
+  /// Binds positions, coarse positions, lit ground and water to units 0 to 3.
   void bind() const;
 
   const gl::Texture& positions() const { return positions_; }
   const gl::Texture& coarse() const { return coarse_; }
-  const gl::Texture& albedo() const { return albedo_; }
-  const gl::Texture& normals() const { return normals_; }
+  const gl::Texture& lit() const { return lit_; }
+  const gl::Texture& water() const { return water_; }
 
   std::size_t bytes() const;
   std::size_t layer_bytes() const;
@@ -41,7 +41,7 @@ class ClipmapTextures {
   void grow();
 
   clipmap::Settings settings_;
-  gl::Texture positions_, coarse_, albedo_, normals_;
+  gl::Texture positions_, coarse_, lit_, water_;
   std::map<std::pair<int, int>, int> used_;  ///< (level, diamond) -> layer
   std::vector<int> free_;
 };

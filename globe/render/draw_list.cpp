@@ -1,7 +1,9 @@
 #include "globe/render/draw_list.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -44,16 +46,69 @@ struct Levels {
   }
 };
 
-/// True when every vertex of the patch has α = 0: some one image is within the band's beginning of all three
-/// corners.
-bool is_unmorphed(const std::vector<LatticePoint>& images, const LatticeTrixel& trixel, int m,
-                  std::int64_t begin) {
-  const auto corners = trixel.corners();
-  return std::any_of(images.begin(), images.end(), [&](const LatticePoint& image) {
-    return std::all_of(corners.begin(), corners.end(), [&](const glm::ivec2& c) {
-      return planet::hex_length(c.x * m * kSubcell - image.i, c.y * m * kSubcell - image.j) <= begin;
-    });
-  });
+/// Bounds of the hex distance from the nearest image of the nadir over the vertices of a patch, 1/1024 cells.
+struct DistanceRange {
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  std::int64_t most = std::numeric_limits<std::int64_t>::max();
+};
+
+DistanceRange distance_range(const std::vector<LatticePoint>& images, const LatticeTrixel& trixel, int m) {
+  DistanceRange range;
+  for (const LatticePoint& image : images) {
+    // The distance is the largest of six linear functions; each is least and most at a corner.
+    std::int64_t most = 0;
+    std::array<std::int64_t, 6> least{};
+    least.fill(std::numeric_limits<std::int64_t>::max());
+    for (const glm::ivec2& corner : trixel.corners()) {
+      const std::int64_t i = corner.x * m * kSubcell - image.i, j = corner.y * m * kSubcell - image.j;
+      const std::array<std::int64_t, 6> values{i, -i, j, -j, i + j, -i - j};
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        least[k] = std::min(least[k], values[k]);
+        most = std::max(most, values[k]);
+      }
+    }
+    range.least = std::min(range.least, *std::max_element(least.begin(), least.end()));
+    range.most = std::min(range.most, most);
+  }
+  return range;
+}
+
+/// A patch's shading and geometry from its distances. `share_begin` and `share_end`: shading_share
+/// (clipmap.glsl) is 0 up to the one and 1 from the other on.
+struct Bands {
+  clipmap::MorphBand morph;
+  std::int64_t share_begin, share_end;
+
+  explicit Bands(const clipmap::MorphBand& band)
+      : morph(band),
+        share_begin(band.begin + (band.end - band.begin) / 2),
+        share_end(band.begin + (3 * (band.end - band.begin) + 3) / 4) {}
+
+  Look look(const DistanceRange& distance, float fade, bool on_rim) const {
+    const bool fine = distance.most <= share_begin && fade <= 0.5f;
+    const bool coarse = distance.least >= share_end || fade >= 0.75f;
+    const Shading shading = fine && !on_rim ? Shading::kFine : coarse ? Shading::kCoarse : Shading::kBoth;
+    if (on_rim) return {Kind::kRim, shading};
+    return {distance.most <= morph.begin && fade == 0.0f ? Kind::kPlain : Kind::kMorphing, shading};
+  }
+};
+
+/// Whether the sun may glint in water of a patch: somewhere within 20 degrees of the mirror's direction,
+/// beyond which less than a thousandth of it is left.
+bool may_glint(const clipmap::PatchBounds& bounds, const glm::dvec3& centre, const Camera& camera,
+               const glm::dvec3& sun) {
+  constexpr double kReach = 0.35;
+  const bool has_sea = bounds.lowest == 0.0f;  // drawn at height 0 exactly
+  if (!has_sea) return false;
+  const glm::dvec3 up = glm::normalize(centre);
+  const double radius = static_cast<double>(bounds.radius);
+  const double bend = radius / glm::length(centre);
+  if (glm::dot(sun, up) < -bend) return false;
+  const glm::dvec3 to = centre - camera.position;
+  const double distance = glm::length(to);
+  const glm::dvec3 half_way = sun - to / std::max(distance, 1e-3);
+  const double reach = kReach + bend + radius / std::max(distance, 1e-3);
+  return reach >= 3.1 || glm::dot(up, half_way) >= std::cos(reach) * glm::length(half_way);
 }
 
 }  // namespace
@@ -62,9 +117,9 @@ DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::Clipma
                         const ClipmapTextures& textures, const geo::Ellipsoid& ellipsoid,
                         const Camera& camera, int finest, float fade, bool cull) {
   DrawList list;
-  std::map<std::tuple<Kind, int, int>, Batch> batches;
+  std::map<std::tuple<Look, int, int>, Batch> batches;
   const Levels levels{settings, state};
-  const clipmap::MorphBand band = clipmap::morph_band(settings);
+  const Bands bands(clipmap::morph_band(settings));
   const clipmap::Frustum frustum(camera.forward, camera.right, camera.up, camera.tan_x(), camera.tan_y());
   double lowest_m = levels.data(settings.base_level).lowest_m;
   for (int level = settings.base_level; level <= finest; ++level)
@@ -102,7 +157,6 @@ DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::Clipma
       slot.shading = {static_cast<float>((modulo(rect.i0 * up, settings.shading_window()) + 0.5) / size),
                       static_cast<float>((modulo(rect.j0 * up, settings.shading_window()) + 0.5) / size),
                       static_cast<float>(up / size), static_cast<float>(up / size)};
-      slot.axis = glm::vec4(glm::vec3(clipmap::shading_axis(d)), 0.0f);
       list.slots.push_back(slot);
     }
   }
@@ -116,23 +170,24 @@ DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::Clipma
       const Patch& patch = data.patches[p];
       const auto d = static_cast<std::size_t>(patch.trixel.d);
       if (hole != nullptr && hole->holds(patch.trixel)) continue;
+      const glm::dvec3 centre = data.anchor + glm::dvec3(data.bounds[p].centre);
       if (cull) {
-        const glm::dvec3 centre = data.anchor + glm::dvec3(data.bounds[p].centre);
         const auto radius = static_cast<double>(data.bounds[p].radius);
         const auto highest = static_cast<double>(data.bounds[p].highest);
         if (!frustum.sees(centre - camera.position, radius) || !horizon.sees(centre, radius, highest))
           continue;
       }
-      Kind kind = Kind::kPlain;
+      Look look;
       if (level > settings.base_level) {
-        const bool fading = level == finest && fade > 0.0f;
-        if (fading || !is_unmorphed(images[d], patch.trixel, settings.m, band.begin)) kind = Kind::kMorphing;
-        if ((patch.rim | patch.rim_corners) != 0) kind = Kind::kRim;
+        look = bands.look(distance_range(images[d], patch.trixel, settings.m), level == finest ? fade : 0.0f,
+                          (patch.rim | patch.rim_corners) != 0);
       }
+      const bool rim = look.kind == Kind::kRim;
+      if (may_glint(data.bounds[p], centre, camera, state.target.lighting.sun))
+        look = {level > settings.base_level ? Kind::kRim : Kind::kPlain, Shading::kGlint};
       const NodeRect& rect = data.vertices[d];
       const int half = patch.trixel.half;
-      const bool rim = kind == Kind::kRim;
-      Batch& batch = batches[{kind, rim ? patch.rim : 0, rim ? patch.rim_corners : 0}];
+      Batch& batch = batches[{look, rim ? patch.rim : 0, rim ? patch.rim_corners : 0}];
       batch.instances.emplace_back((patch.trixel.i + half) * settings.m - rect.i0,
                                    (patch.trixel.j + half) * settings.m - rect.j0, half == 0 ? 1 : -1,
                                    slot_of[static_cast<std::size_t>(level - settings.base_level)][d]);
@@ -140,7 +195,7 @@ DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::Clipma
     }
   }
   for (auto& [name, batch] : batches) {
-    std::tie(batch.kind, batch.rim, batch.rim_corners) = name;
+    std::tie(batch.look, batch.rim, batch.rim_corners) = name;
     list.batches.push_back(std::move(batch));
   }
   return list;

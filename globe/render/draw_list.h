@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -21,16 +22,38 @@ struct SlotBlock {
   glm::ivec4 images_b{0};
   glm::ivec4 coarse{0};
   glm::vec4 shading{0.0f};
-  glm::vec4 axis{0.0f};
 };
 inline constexpr int kMaxSlots = 128;
 
 /// How a patch is drawn: without morphing, with it, or at a rim beside the coarser level.
 enum class Kind { kPlain, kMorphing, kRim };
 
-/// Patches of one kind and rim variant: one instanced draw.
-struct Batch {
+/// Whose shading the pixels of a patch show.
+enum class Shading {
+  kFine,    ///< the level's own
+  kCoarse,  ///< the coarser level's
+  kBoth,    ///< a share of each
+  kGlint,   ///< a share of each (at the base level its own), and the sun on water
+};
+
+/// How a patch is drawn, whatever its rim: what a program is made for.
+struct Look {
   Kind kind = Kind::kPlain;
+  Shading shading = Shading::kFine;
+
+  friend auto operator<=>(const Look&, const Look&) = default;
+};
+
+/// Every look that a patch can have.
+inline constexpr std::array kLooks{
+    Look{Kind::kPlain, Shading::kFine},    Look{Kind::kMorphing, Shading::kFine},
+    Look{Kind::kMorphing, Shading::kBoth}, Look{Kind::kMorphing, Shading::kCoarse},
+    Look{Kind::kRim, Shading::kBoth},      Look{Kind::kRim, Shading::kCoarse},
+    Look{Kind::kRim, Shading::kGlint},     Look{Kind::kPlain, Shading::kGlint}};
+
+/// Patches of one look and rim variant: one instanced draw.
+struct Batch {
+  Look look;
   int rim = 0;                        ///< edges on the rim: which index list
   int rim_corners = 0;                ///< corners that touch it
   std::vector<glm::ivec4> instances;  ///< corner 0 from the window's first node (i, j), ±1 for the half, slot

@@ -36,18 +36,23 @@ constexpr double kTwilightHeight = 300.0;  ///< km; from higher up the terminato
 constexpr int kSkySteps = 16;              ///< samples of the air along a ray of the sky map
 constexpr glm::ivec2 kSkyMap{32, 128};     ///< texels across azimuth and up from the horizon
 constexpr std::size_t kMaxInstances = 32768;
+constexpr double kSunMoved =
+    1e-3;  ///< radians (0.06 degrees) after which frames in real time light the ground anew
 constexpr float kLateFade = 0.1f;  ///< a level that arrives late morphs in by this much a frame
 
 bool has_air(const planet::PlanetInfo& info) {
   return info.body == "earth" || info.name.rfind("procedural", 0) == 0;
 }
 
-gl::Program ground_program(Kind kind, const RenderSettings& settings) {
+gl::Program ground_program(const Look& look, const RenderSettings& settings) {
   gl::ProgramSources sources;
   sources.files = {"clipmap.vert", "clipmap.frag"};
   sources.defines = {"MAX_SLOTS " + std::to_string(kMaxSlots), "HAZE_STEPS " + std::to_string(kHazeSteps)};
-  if (kind != Kind::kPlain) sources.defines.push_back("MORPH");
-  if (kind == Kind::kRim) sources.defines.push_back("RIM");
+  if (look.kind != Kind::kPlain) sources.defines.push_back("MORPH");
+  if (look.kind == Kind::kRim) sources.defines.push_back("RIM");
+  if (look.shading != Shading::kCoarse) sources.defines.push_back("SHADE_FINE");
+  if (look.kind != Kind::kPlain && look.shading != Shading::kFine) sources.defines.push_back("SHADE_COARSE");
+  if (look.shading == Shading::kGlint) sources.defines.push_back("GLINT");
   if (settings.show != Show::kGround || settings.wireframe) sources.defines.push_back("SHOW");
   return gl::Program(sources);
 }
@@ -104,9 +109,7 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
   ground_array_.set_vertices(1, instances_, 0, sizeof(glm::ivec4), 1);
   ground_array_.set_attribute(1, {1, 4, GL_INT, 0, gl::Attribute::Kind::kInteger});
   ground_array_.set_indices(indices_);
-  for (const Kind kind : {Kind::kPlain, Kind::kMorphing, Kind::kRim}) {
-    ground_[static_cast<std::size_t>(kind)] = ground_program(kind, settings_);
-  }
+  for (std::size_t k = 0; k < kLooks.size(); ++k) ground_[k] = ground_program(kLooks[k], settings_);
   if (!settings_.background) {
     gl::ProgramSources sources;
     sources.files = {"sky.vert", "sky.frag"};
@@ -159,12 +162,12 @@ std::size_t GlobeRenderer::load(const clipmap::Target& target, bool wait) {
   if (const auto update = stream_->take()) bytes = take(*update);
   if (clipmap::still_holds(settings_.clipmap, *state_, target)) {
     auto moved = std::make_shared<clipmap::ClipmapState>(*state_);
-    moved->target = {target.u, state_->finest_level()};
+    moved->target = {target.u, state_->finest_level(), target.lighting};
     state_ = std::move(moved);
     // Nothing is missing: make the next finer level ready, so that it is there when the camera comes down to
     // it.
     if (state_->finest_level() <= target.finest && target.finest < settings_.max_level) {
-      stream_->request({target.u, target.finest + 1}, state_);
+      stream_->request({target.u, target.finest + 1, target.lighting}, state_);
     }
   } else {
     stream_->request(target, state_);
@@ -184,8 +187,8 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
   DrawList list = make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), camera,
                                  settings_.clipmap.base_level, 0.0f, true);
   std::vector<Batch> batches;
-  for (const Kind kind : {Kind::kPlain, Kind::kMorphing, Kind::kRim}) {
-    batches.push_back({kind, kind == Kind::kRim ? 1 : 0, 0, {list.batches.front().instances.front()}});
+  for (const Look& look : kLooks) {
+    batches.push_back({look, look.kind == Kind::kRim ? 1 : 0, 0, {list.batches.front().instances.front()}});
   }
   list.batches = std::move(batches);
   FrameStats ignored;
@@ -200,9 +203,17 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   const auto finest =
       clipmap::finest_level(settings_.clipmap, surface_->root_edge(), above, settings_.max_level);
   const geo::Geodetic place = geo::geodetic_from_ecef(surface_->ellipsoid(), camera.position);
-  const clipmap::Target wanted{geo::normal_from_degrees(place.lat_deg, place.lon_deg), finest.level};
+  clipmap::Target wanted{geo::normal_from_degrees(place.lat_deg, place.lon_deg),
+                         finest.level,
+                         {sun, settings_.show == Show::kNormals}};
+  // Frames in real time keep the light they have while the sun stands still, near enough.
+  if (!wait && state_ && glm::distance(sun, state_->target.lighting.sun) < kSunMoved)
+    wanted.lighting = state_->target.lighting;
   stats.upload_bytes = load(wanted, wait);
-  stats.complete = state_->finest_level() >= finest.level && state_->target.u == wanted.u;
+  stats.complete =
+      state_->finest_level() >= finest.level && state_->target.u == wanted.u &&
+      std::all_of(state_->levels.begin(), state_->levels.end(),
+                  [&](const auto& level) { return level->lighting == wanted.lighting; });
   stats.queued_jobs = stream_ ? stream_->pending() : 0;
   stats.finest_level = std::min(finest.level, state_->finest_level());
 
@@ -293,7 +304,8 @@ void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay)
   std::size_t first = 0;
   const gl::Program* bound = nullptr;
   for (const Batch& batch : list.batches) {
-    const gl::Program& program = ground_[static_cast<std::size_t>(batch.kind)];
+    const gl::Program& program = ground_[static_cast<std::size_t>(
+        std::find(kLooks.begin(), kLooks.end(), batch.look) - kLooks.begin())];
     if (bound != &program) {
       program.use();
       program.set(0, glm::ivec4(c.window(), band.begin, band.end, c.m));
@@ -303,7 +315,7 @@ void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay)
       }
       bound = &program;
     }
-    if (batch.kind == Kind::kRim) program.set(2, batch.rim | batch.rim_corners << 3);
+    if (batch.look.kind == Kind::kRim) program.set(2, batch.rim | batch.rim_corners << 3);
     const auto rim = static_cast<std::size_t>(batch.rim);
     glDrawElementsInstancedBaseInstance(
         GL_TRIANGLES, static_cast<GLsizei>(mesh_.indices[rim].size()), GL_UNSIGNED_SHORT,

@@ -85,7 +85,7 @@ class GlobeRenderer {
   std::array<std::size_t, 8> index_offset_{};
   gl::Buffer vertices_, indices_, instances_, view_, slots_;
   gl::VertexArray ground_array_, sky_array_;
-  std::array<gl::Program, 3> ground_;  ///< by Kind
+  std::array<gl::Program, kLooks.size()> ground_;  ///< by Look, in the order of kLooks
   std::optional<gl::Program> sky_,
       sky_map_program_;  ///< none with a background; no map where there is no air
   gl::Framebuffer sky_map_;

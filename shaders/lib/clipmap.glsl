@@ -12,6 +12,9 @@ float morph_factor(int distance, int begin, int end) {
   return clamp(float(distance - begin) / float(end - begin), 0.0f, 1.0f);
 }
 
+// Share of the coarser level's shading at a morph factor: turned over in a quarter of the band, so that few pixels need both.
+float shading_share(float alpha) { return clamp(4.0f * alpha - 2.0f, 0.0f, 1.0f); }
+
 // Exact at both ends, which mix() is not on every driver.
 float exact_mix(float a, float b, float t) { return t >= 1.0f ? b : (t <= 0.0f ? a : a + (b - a) * t); }
 

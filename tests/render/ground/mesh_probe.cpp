@@ -1,5 +1,7 @@
 #include "tests/render/ground/mesh_probe.h"
 
+#include <map>
+
 #include "globe/clipmap/morph.h"
 
 namespace views {
@@ -46,9 +48,10 @@ MeshProbe::MeshProbe(std::shared_ptr<const Surface> surface, const globe::clipma
                 probe_program(Kind::kRim, reader)},
       textures_(settings) {}
 
-void MeshProbe::load(const dvec3& position, int finest) {
+void MeshProbe::load(const dvec3& position, int finest, const globe::clipmap::Lighting& lighting) {
   const Geodetic place = globe::geo::geodetic_from_ecef(surface_->ellipsoid(), position);
-  const globe::clipmap::Target target{globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg), finest};
+  const globe::clipmap::Target target{globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg), finest,
+                                      lighting};
   const auto update =
       globe::clipmap::advance(settings_, *surface_, target, state_.get(), globe::clipmap::Stride::kWhole);
   textures_.apply(update);
@@ -72,8 +75,8 @@ std::vector<ProbeVertex> MeshProbe::triangles(const Camera& camera, float fade, 
   nowhere_.bind();
   glEnable(GL_RASTERIZER_DISCARD);
   const globe::clipmap::MorphBand band = globe::clipmap::morph_band(settings_);
-  std::vector<ProbeVertex> result;
-  std::vector<std::array<int, 2>> slot_names(list.slots.size());  // level and diamond
+  std::map<std::array<int, 5>, std::vector<ProbeVertex>> patches;  // by level, diamond, corner, half
+  std::vector<std::array<int, 2>> slot_names(list.slots.size());   // level and diamond
   for (const auto& level : state_->levels) {
     for (int d = 0; d < globe::planet::kDiamonds; ++d) {
       const int layer = textures_.layer(level->region.level, d);
@@ -93,7 +96,7 @@ std::vector<ProbeVertex> MeshProbe::triangles(const Camera& camera, float fade, 
     array.set_attribute(1, {1, 4, GL_INT, 0, globe::gl::Attribute::Kind::kInteger});
     array.set_indices(indices);
     array.bind();
-    const Kind kind = all_as_rim ? Kind::kRim : batch.kind;
+    const Kind kind = all_as_rim ? Kind::kRim : batch.look.kind;
     const globe::gl::Program& program = programs_[static_cast<std::size_t>(kind)];
     program.use();
     program.set(0, glm::ivec4(settings_.window(), band.begin, band.end, settings_.m));
@@ -112,14 +115,16 @@ std::vector<ProbeVertex> MeshProbe::triangles(const Camera& camera, float fade, 
       const auto [level, d] = slot_names[static_cast<std::size_t>(instance.w)];
       const auto& rect = state_->levels[static_cast<std::size_t>(level - settings_.base_level)]
                              ->vertices[static_cast<std::size_t>(d)];
-      result.push_back(
+      patches[{level, d, instance.x, instance.y, instance.z}].push_back(
           {positions[k],
            {d, level, rect.i0 + instance.x + instance.z * a, rect.j0 + instance.y + instance.z * b},
            on_rim(batch, settings_.m, a, b),
-           batch.kind});
+           batch.look.kind});
     }
   }
   glDisable(GL_RASTERIZER_DISCARD);
+  std::vector<ProbeVertex> result;
+  for (const auto& [name, vertices] : patches) result.insert(result.end(), vertices.begin(), vertices.end());
   return result;
 }
 

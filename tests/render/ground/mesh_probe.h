@@ -34,9 +34,9 @@ class MeshProbe {
             const globe::gl::ShaderReader& reader = globe::gl::read_shader);
 
   /// Loads what a camera at `position` wants down to level `finest`.
-  void load(const dvec3& position, int finest);
+  void load(const dvec3& position, int finest, const globe::clipmap::Lighting& lighting = {});
 
-  /// Corners of all triangles, three a triangle.
+  /// Corners of all triangles, three a triangle, in an order that the camera does not change.
   ///
   /// @param space       kRelative: the projection is left out, so positions come back bit for bit
   /// @param all_as_rim  every patch by the program for rims, with no edge on one

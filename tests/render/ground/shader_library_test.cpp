@@ -16,6 +16,7 @@ using namespace glm;
 #include "shaders/lib/atmosphere.glsl"
 #include "shaders/lib/clipmap.glsl"
 #include "shaders/lib/sky_map.glsl"
+#include "shaders/lib/tone.glsl"
 #undef OUT
 
 // Used by the shaders alone.
@@ -54,6 +55,33 @@ TEST(ShaderLibrary, ExactMixIsExactAtBothEndsAndBetweenThemElsewhere) {
   hard::report("mix", "negative control: a + (b - a) at 1 is not b, of 100000", "> 0",
                std::to_string(mix_fails));
   EXPECT_GT(mix_fails, 0);
+}
+
+TEST(ShaderLibrary, ShadingTurnsOverInsideTheMorphBand) {
+  EXPECT_EQ(shader::shading_share(0.0f), 0.0f);
+  EXPECT_EQ(shader::shading_share(0.5f), 0.0f);
+  EXPECT_EQ(shader::shading_share(0.625f), 0.5f);
+  EXPECT_EQ(shader::shading_share(0.75f), 1.0f);
+  EXPECT_EQ(shader::shading_share(1.0f), 1.0f);
+}
+
+/// A fit's error, in shares of white: a fifth of a step of eight bits.
+constexpr double kToneError = 0.0008;
+
+TEST(ShaderLibrary, ToneCurveIsTheFilmicOneAndThePower) {
+  double worst = 0;
+  float before = -1.0f;
+  for (double x = 1e-7; x < 1e4; x *= 1.003) {
+    const double filmic = std::min((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 1.0);
+    const float seen = shader::tone_mapped(glm::vec3(static_cast<float>(x))).x;
+    worst = std::max(worst, std::abs(double(seen) - std::pow(filmic, 1.0 / 2.2)));
+    ASSERT_GE(seen, before) << x;
+    before = seen;
+  }
+  EXPECT_EQ(shader::tone_mapped(glm::vec3(0.0f)), glm::vec3(0.0f));
+  hard::report("tone", "fitted tone curve against its formulas, shares of white", "0.0008",
+               hard::figure(worst));
+  EXPECT_LE(worst, kToneError);
 }
 
 TEST(ShaderLibrary, TorusTexelsWrapOnceInBothDirections) {
