@@ -79,12 +79,14 @@ class Flight {
         from_ground_(ground_height(from.place)),
         to_ground_(ground_height(to.place)) {}
 
-  render::Camera camera(double t, const ViewOptions& view, double aspect, geo::Geodetic& place) const {
+  /// @param wait  false: the ground at hand, so that a camera takes no time
+  render::Camera camera(double t, const ViewOptions& view, double aspect, bool wait,
+                        geo::Geodetic& place) const {
     const globe::scene::PathPoint point = path_.at(t);
     place = geo::degrees_from_normal(point.u);
     const double e = globe::scene::FlightPath::eased(t);
     place.h_m = point.height_m + from_ground_ + (to_ground_ - from_ground_) * e;
-    const double above = renderer_.height_above_ground(geo::ecef_from_geodetic(ellipsoid_, place));
+    const double above = renderer_.height_above_ground(geo::ecef_from_geodetic(ellipsoid_, place), wait);
     if (above < kClearance) place.h_m += kClearance - above;
     return render::make_camera(ellipsoid_, place, point.heading_deg, point.pitch_deg, view.fov_deg, aspect);
   }
@@ -166,22 +168,22 @@ void run(const FlyOptions& options) {
 
   renderer.warm_up(target);
   geo::Geodetic start;
-  renderer.draw(flight.camera(0.0, view, static_cast<double>(size.width) / size.height, start), sun, true,
-                target);
+  renderer.draw(flight.camera(0.0, view, static_cast<double>(size.width) / size.height, true, start), sun,
+                true, target);
   globe::gl::TimerQuery timer = globe::gl::TimerQuery::create();
   const double aspect = static_cast<double>(size.width) / size.height;
   for (int k = 0; k < options.frames; ++k) {
     const double t = options.frames == 1 ? 1.0 : static_cast<double>(k) / (options.frames - 1);
     geo::Geodetic place;
-    const render::Camera camera = flight.camera(t, view, aspect, place);
     const auto begin = std::chrono::steady_clock::now();
+    const render::Camera camera = flight.camera(t, view, aspect, options.wait, place);
     timer.begin();
     const render::FrameStats frame = renderer.draw(camera, sun, options.wait, target);
     target.resolve();
     timer.end();
     glFinish();
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
-    const double above = renderer.height_above_ground(camera.position);
+    const double above = renderer.height_above_ground(camera.position, options.wait);
     stats.add({k, place, above, took.count(), timer.wait_milliseconds(), frame});
     const std::vector<std::uint8_t> rgba = target.read_rgba8();
     sink.write(rgba);

@@ -120,17 +120,19 @@ void Surface::make_roots() const {
   }
 }
 
-std::shared_ptr<const SurfaceTile> Surface::tile(const TileId& id) const {
-  std::call_once(roots_made_, [this] { make_roots(); });
+std::shared_ptr<const SurfaceTile> Surface::tile_at_hand(const TileId& id) const {
   if (id.level <= kRootLevel)
     return roots_[static_cast<std::size_t>(id.level)][static_cast<std::size_t>(id.d)];
-  {
-    const std::lock_guard lock(mutex_);
-    if (const auto found = cache_.find(id); found != cache_.end()) {
-      recent_.splice(recent_.begin(), recent_, found->second);
-      return found->second->tile;
-    }
-  }
+  const std::lock_guard lock(mutex_);
+  const auto found = cache_.find(id);
+  if (found == cache_.end()) return nullptr;
+  recent_.splice(recent_.begin(), recent_, found->second);
+  return found->second->tile;
+}
+
+std::shared_ptr<const SurfaceTile> Surface::tile(const TileId& id) const {
+  std::call_once(roots_made_, [this] { make_roots(); });
+  if (auto held = tile_at_hand(id)) return held;
   std::shared_ptr<const SurfaceTile> made = make_tile(id);
   const std::lock_guard lock(mutex_);
   if (const auto found = cache_.find(id); found != cache_.end()) return found->second->tile;
@@ -300,16 +302,46 @@ double Surface::height(const Node& node) const {
   return tile(tile_of(node))->height.at(node.i, node.j);
 }
 
-double Surface::height(const dvec3& u, int level) const {
+namespace {
+
+/// The three nodes of the level's trixel that holds a place, and their weights in it.
+struct Corners {
+  std::array<Node, 3> nodes;
+  std::array<double, 3> weights;
+};
+
+Corners corners_at(const dvec3& u, int level) {
   const Place place = locate(u, level);
   const int n = nodes_per_side(level);
   const int i = std::min(static_cast<int>(place.ij.x), n - 1);
   const int j = std::min(static_cast<int>(place.ij.y), n - 1);
   const double x = place.ij.x - i;
   const double y = place.ij.y - j;
-  const auto at = [&](int di, int dj) { return height(Node{place.d, level, i + di, j + dj}); };
-  if (x + y <= 1.0) return (1.0 - x - y) * at(0, 0) + x * at(1, 0) + y * at(0, 1);
-  return (x + y - 1.0) * at(1, 1) + (1.0 - x) * at(0, 1) + (1.0 - y) * at(1, 0);
+  const auto at = [&](int di, int dj) { return Node{place.d, level, i + di, j + dj}; };
+  if (x + y <= 1.0) return {{at(0, 0), at(1, 0), at(0, 1)}, {1.0 - x - y, x, y}};
+  return {{at(1, 1), at(0, 1), at(1, 0)}, {x + y - 1.0, 1.0 - x, 1.0 - y}};
+}
+
+}  // namespace
+
+double Surface::height(const dvec3& u, int level) const {
+  const auto [nodes, weights] = corners_at(u, level);
+  return weights[0] * height(nodes[0]) + weights[1] * height(nodes[1]) + weights[2] * height(nodes[2]);
+}
+
+double Surface::height_at_hand(const dvec3& u, int level) const {
+  for (; level > std::max(data_level_, kRootLevel); --level) {
+    const auto [nodes, weights] = corners_at(u, level);
+    double sum = 0.0;
+    bool known = true;
+    for (std::size_t k = 0; known && k < nodes.size(); ++k) {
+      const auto tile = tile_at_hand(tile_of(nodes[k]));
+      known = tile != nullptr;
+      if (known) sum += weights[k] * tile->height.at(nodes[k].i, nodes[k].j);
+    }
+    if (known) return sum;
+  }
+  return height(u, level);
 }
 
 }  // namespace globe::planet

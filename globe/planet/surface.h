@@ -79,6 +79,9 @@ class Surface {
   double height(const Node& node) const;
   /// Height of the flat level-L trixel above a direction: linear between its three nodes.
   double height(const dvec3& u, int level) const;
+  /// The same at the finest level up to `level` whose ground is known already: nothing is synthesised, so it
+  /// takes microseconds. For what must not wait.
+  double height_at_hand(const dvec3& u, int level) const;
 
   const PlanetInfo& info() const { return info_; }
   const geo::Ellipsoid& ellipsoid() const { return info_.ellipsoid; }
@@ -109,6 +112,8 @@ class Surface {
   };
 
   std::shared_ptr<const SurfaceTile> make_tile(const TileId& id) const;
+  /// The tile if it has been made and is still held, else null.
+  std::shared_ptr<const SurfaceTile> tile_at_hand(const TileId& id) const;
   void make_roots() const;
   /// Height of a node of the data's finest level or a coarser one, from the data alone.
   double measured_height(const Node& node) const;

@@ -124,11 +124,11 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
   }
 }
 
-double GlobeRenderer::height_above_ground(const glm::dvec3& position) const {
+double GlobeRenderer::height_above_ground(const glm::dvec3& position, bool wait) const {
   const geo::Geodetic place = geo::geodetic_from_ecef(surface_->ellipsoid(), position);
   const glm::dvec3 u = geo::normal_from_degrees(place.lat_deg, place.lon_deg);
   const auto drawn = [&](int level) {
-    const double h = surface_->height(u, level);
+    const double h = wait ? surface_->height(u, level) : surface_->height_at_hand(u, level);
     return place.h_m - (surface_->has_sea() ? std::max(h, 0.0) : h);
   };
   double above = drawn(settings_.clipmap.base_level);
@@ -199,7 +199,7 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
 FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool wait,
                                const gl::Framebuffer& target) {
   FrameStats stats;
-  const double above = std::max(height_above_ground(camera.position), 0.1);
+  const double above = std::max(height_above_ground(camera.position, wait), 0.1);
   const auto finest =
       clipmap::finest_level(settings_.clipmap, surface_->root_edge(), above, settings_.max_level);
   const geo::Geodetic place = geo::geodetic_from_ecef(surface_->ellipsoid(), camera.position);
@@ -210,10 +210,9 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   if (!wait && state_ && glm::distance(sun, state_->target.lighting.sun) < kSunMoved)
     wanted.lighting = state_->target.lighting;
   stats.upload_bytes = load(wanted, wait);
-  stats.complete =
-      state_->finest_level() >= finest.level && state_->target.u == wanted.u &&
-      std::all_of(state_->levels.begin(), state_->levels.end(),
-                  [&](const auto& level) { return level->lighting == wanted.lighting; });
+  stats.complete = state_->finest_level() >= finest.level && state_->target.u == wanted.u &&
+                   std::all_of(state_->levels.begin(), state_->levels.end(),
+                               [&](const auto& level) { return level->lighting == wanted.lighting; });
   stats.queued_jobs = stream_ ? stream_->pending() : 0;
   stats.finest_level = std::min(finest.level, state_->finest_level());
 

@@ -65,7 +65,10 @@ class GlobeRenderer {
   bool is_loading() const { return stream_ != nullptr && stream_->pending() > 0; }
 
   /// Height of the camera above the ground that is drawn at the finest level under it, metres.
-  double height_above_ground(const glm::dvec3& position) const;
+  ///
+  /// @param wait  true: of the level it wants, which may have to be synthesised first; false: of what is at
+  /// hand
+  double height_above_ground(const glm::dvec3& position, bool wait = true) const;
 
   std::size_t gpu_bytes() const { return textures_.bytes(); }
   std::size_t gpu_layer_bytes() const { return textures_.layer_bytes(); }

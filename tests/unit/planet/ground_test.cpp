@@ -315,6 +315,20 @@ TEST(Albedo, FollowsHeightSlopeAndMoistureWhereThereIsNoMap) {
   EXPECT_LT(bright(deep), 0.05f);
 }
 
+TEST(HeightAtHand, IsThatOfTheFinestLevelAlreadyMadeAndMakesNone) {
+  const auto surface = Surface::builtin(3);
+  const dvec3 u = geo::normal_from_degrees(-43.42, -106.43);
+  const double coarse = surface->height(u, surface->data_level());
+  EXPECT_EQ(surface->height_at_hand(u, 20), coarse);
+  EXPECT_EQ(surface->height_at_hand(u, 20), coarse) << "asking must not make ground";
+  const double at_14 = surface->height(u, 14);
+  EXPECT_EQ(surface->height_at_hand(u, 20), at_14);
+  EXPECT_EQ(surface->height_at_hand(u, 14), at_14);
+  EXPECT_NE(at_14, coarse);
+  const double at_20 = surface->height(u, 20);
+  EXPECT_EQ(surface->height_at_hand(u, 20), at_20);
+}
+
 TEST(ScenicPlace, IsTheSameEveryTimeAndLooksAtHighGroundFromLand) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const auto surface = Surface::builtin(seed);
