@@ -98,28 +98,27 @@ VertexBlock make_vertex_block(const Surface& surface, int level, int d, const No
   return block;
 }
 
-/// The nodes of `rect` that were held before, each in its new place; the others are left to be filled.
-ShadingNodes moved_ground(const NodeRect& rect, const NodeRect& before_rect, const ShadingNodes* before) {
-  ShadingNodes ground;
-  ground.resize(rect);
-  const NodeRect common = before_rect.empty() ? NodeRect{} : intersect(rect, before_rect);
-  if (common.empty()) return ground;
-  const auto width = static_cast<std::ptrdiff_t>(common.width());
-  for (int j = common.j0; j <= common.j1; ++j) {
-    const auto from = static_cast<std::ptrdiff_t>(at(before_rect, common.i0, j));
-    const auto to = static_cast<std::ptrdiff_t>(at(rect, common.i0, j));
-    std::copy_n(before->albedo.begin() + from, width, ground.albedo.begin() + to);
-    std::copy_n(before->normal.begin() + from, width, ground.normal.begin() + to);
+/// What stays resident of a level's ground when its window becomes `rect`.
+std::vector<GroundPart> parts_within(const NodeRect& rect, const std::vector<GroundPart>& parts) {
+  std::vector<GroundPart> kept;
+  for (const GroundPart& part : parts) {
+    const NodeRect valid = intersect(part.valid, rect);
+    if (!valid.empty()) kept.push_back({part.made, valid, part.nodes});
   }
-  return ground;
+  return kept;
 }
 
-ShadingBlock make_shading_block(const Lighting& lighting, int level, int d, const NodeRect& part,
-                                const NodeRect& held, const ShadingNodes& ground) {
-  ShadingBlock block{d, part, lit_nodes(lighting, level, d, part, held, ground), {}};
+GroundPart make_ground(const Surface& surface, int level, int d, const NodeRect& rect) {
+  auto nodes = std::make_shared<ShadingNodes>(make_shading_nodes(surface, level, d, rect));
+  return {rect, rect, std::move(nodes)};
+}
+
+ShadingBlock make_shading_block(const Lighting& lighting, int level, int d, const GroundPart& part) {
+  ShadingBlock block{d, part.valid, lit_nodes(lighting, level, d, part.valid, part.made, *part.nodes), {}};
   block.water.reserve(block.lit.size());
-  for (int j = part.j0; j <= part.j1; ++j) {
-    for (int i = part.i0; i <= part.i1; ++i) block.water.push_back(ground.albedo[at(held, i, j)].a);
+  for (int j = part.valid.j0; j <= part.valid.j1; ++j) {
+    for (int i = part.valid.i0; i <= part.valid.i1; ++i)
+      block.water.push_back(part.nodes->albedo[at(part.made, i, j)].a);
   }
   return block;
 }
@@ -246,16 +245,15 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
     // One guard node all round: bilinear look-ups at the border of the region read it, with weight zero.
     data->shading[k] = {std::max(rect.i0 * up - 1, 0), std::min(rect.i1 * up + 1, shading_n),
                         std::max(rect.j0 * up - 1, 0), std::min(rect.j1 * up + 1, shading_n)};
-    const NodeRect before_rect = before != nullptr ? before->shading[k] : NodeRect{};
-    data->ground[k] =
-        moved_ground(data->shading[k], before_rect, before != nullptr ? &before->ground[k] : nullptr);
-    const std::vector<NodeRect> came_in = difference(data->shading[k], before_rect);
-    for (const NodeRect& part : came_in)
-      make_shading_nodes(surface, shading_level, d, part, data->shading[k], data->ground[k]);
+    if (before != nullptr) data->ground[k] = parts_within(data->shading[k], before->ground[k]);
+    const std::size_t kept = data->ground[k].size();
+    for (const NodeRect& part :
+         difference(data->shading[k], before != nullptr ? before->shading[k] : NodeRect{})) {
+      data->ground[k].push_back(make_ground(surface, shading_level, d, part));
+    }
     const bool same_light = before != nullptr && before->lighting == lighting;
-    for (const NodeRect& part : same_light ? came_in : std::vector<NodeRect>{data->shading[k]})
-      update.shading_blocks.push_back(
-          make_shading_block(lighting, shading_level, d, part, data->shading[k], data->ground[k]));
+    for (std::size_t p = same_light ? kept : 0; p < data->ground[k].size(); ++p)
+      update.shading_blocks.push_back(make_shading_block(lighting, shading_level, d, data->ground[k][p]));
   }
   data->lighting = lighting;
   data->region = std::move(region);

@@ -41,6 +41,13 @@ struct PatchBounds {
   float lowest = 0;  ///< height of its lowest vertex
 };
 
+/// Shading nodes that were made together. What stays of them from state to state is shared, not copied.
+struct GroundPart {
+  NodeRect made;   ///< that `nodes` holds
+  NodeRect valid;  ///< that is still resident; those of a level's parts cover its window without overlap
+  std::shared_ptr<const ShadingNodes> nodes;
+};
+
 /// What is resident of one level: CPU side of its windows. Immutable once made; the next one is made from it.
 struct LevelData {
   Region region;
@@ -48,8 +55,9 @@ struct LevelData {
   std::array<NodeRect, planet::kDiamonds> vertices;  ///< resident nodes of each diamond
   std::array<NodeRect, planet::kDiamonds> shading;   ///< resident nodes of each diamond at the shading level
   std::array<std::vector<glm::vec4>, planet::kDiamonds> positions;  ///< of `vertices`, as uploaded
-  std::array<ShadingNodes, planet::kDiamonds> ground;  ///< of `shading`, to be lit anew when the sun moves
-  Lighting lighting;                                   ///< that the uploaded shading was lit with
+  std::array<std::vector<GroundPart>, planet::kDiamonds>
+      ground;                       ///< of `shading`, to be lit when the sun moves
+  Lighting lighting;                ///< that the uploaded shading was lit with
   std::vector<Patch> patches;       ///< every patch of the region, sorted by trixel, rim marked
   std::vector<PatchBounds> bounds;  ///< of `patches`
   double lowest_m = 0;              ///< height that no triangle between `positions` lies below

@@ -115,7 +115,7 @@ std::uint8_t encode_albedo(float linear) {
 double water_clarity(double height) { return std::exp(height / 25.0); }
 
 void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const NodeRect& part,
-                     const NodeRect& held, ShadingNodes& nodes) {
+                     const NodeRect& held, ShadingNodes& ground_nodes) {
   const TileId& id = tile.id;
   const planet::TileValues<double>& h = tile.shading_height();
   const TileMetric metrics(surface.ellipsoid(), id);
@@ -139,17 +139,19 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
       const bool open_water = water && color.r < 0.3f;  // not pack ice
       const std::size_t k = static_cast<std::size_t>(j - held.j0) * static_cast<std::size_t>(held.width()) +
                             static_cast<std::size_t>(i - held.i0);
-      nodes.normal[k] = encode_normal(water ? ground.slope * water_clarity(ground.height_m) : ground.slope);
-      nodes.albedo[k] = {encode_albedo(color.r), encode_albedo(color.g), encode_albedo(color.b),
-                         open_water ? 255 : 0};
+      ground_nodes.normal[k] =
+          encode_normal(water ? ground.slope * water_clarity(ground.height_m) : ground.slope);
+      ground_nodes.albedo[k] = {encode_albedo(color.r), encode_albedo(color.g), encode_albedo(color.b),
+                                open_water ? 255 : 0};
     }
   }
 }
 
 }  // namespace
 
-void make_shading_nodes(const Surface& surface, int level, int d, const NodeRect& nodes, const NodeRect& held,
-                        ShadingNodes& ground) {
+ShadingNodes make_shading_nodes(const Surface& surface, int level, int d, const NodeRect& nodes) {
+  ShadingNodes ground;
+  ground.resize(nodes);
   const int cells = std::min(kTileCells, planet::nodes_per_side(level));
   const int last = planet::nodes_per_side(level) / cells - 1;
   for (int tj = std::min(nodes.j0 / cells, last); tj <= std::min(nodes.j1 / cells, last); ++tj) {
@@ -157,9 +159,10 @@ void make_shading_nodes(const Surface& surface, int level, int d, const NodeRect
       const TileId id{d, level, ti, tj};
       const NodeRect part{std::max(nodes.i0, id.first_i()), std::min(nodes.i1, id.first_i() + cells),
                           std::max(nodes.j0, id.first_j()), std::min(nodes.j1, id.first_j() + cells)};
-      shade_tile_part(surface, *surface.tile(id), part, held, ground);
+      shade_tile_part(surface, *surface.tile(id), part, nodes, ground);
     }
   }
+  return ground;
 }
 
 }  // namespace globe::clipmap

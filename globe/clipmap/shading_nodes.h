@@ -11,8 +11,6 @@ namespace globe::clipmap {
 /// diamond's shading frame (shading_axis). The lattice's metric is taken from node directions every 16 cells
 /// and interpolated between: an error in the slope's direction below 1 % from level 8 on. Under water the
 /// relief fades with depth as the light does.
-/// Written into `ground`, which holds the nodes `held`.
-void make_shading_nodes(const planet::Surface& surface, int level, int d, const NodeRect& nodes,
-                        const NodeRect& held, ShadingNodes& ground);
+ShadingNodes make_shading_nodes(const planet::Surface& surface, int level, int d, const NodeRect& nodes);
 
 }  // namespace globe::clipmap

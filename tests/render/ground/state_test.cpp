@@ -160,7 +160,9 @@ TEST_F(GlTest, H18WindowsAfterAnyWalkHoldWhatARefillWould) {
       const double reach = std::exp2(-22.0 * unit(random));
       u = glm::normalize(u + hard::random_direction(random) * (k % 5 == 4 ? 0.7 : reach));
       if (k % 4 == 2) u = globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg);
-      const globe::clipmap::Target target{u, settings.base_level + 3 + static_cast<int>(random() % 14)};
+      const dvec3 sun = glm::normalize(dvec3(1.0, static_cast<double>(k / 3), 0.5));  // it moves now and then
+      const globe::clipmap::Target target{
+          u, settings.base_level + 3 + static_cast<int>(random() % 14), {sun, false}};
       auto update =
           globe::clipmap::advance(settings, *surface, target, state.get(), globe::clipmap::Stride::kWhole);
       walked.apply(update);
