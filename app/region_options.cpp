@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <vector>
 
 #include "app/parse_options.h"
@@ -14,6 +15,9 @@
 #include "globe/htm/complement.h"
 #include "globe/htm/cone.h"
 #include "globe/htm/polygon.h"
+#include "globe/region/ellipsoid_cone.h"
+#include "globe/region/lat_lon_box.h"
+#include "globe/region/map_polygon.h"
 
 namespace app {
 namespace {
@@ -88,12 +92,15 @@ std::pair<std::string, std::string> point_and_radius(const std::string& text) {
   return {point, trimmed(all.substr(cut + 1))};
 }
 
-RegionPointer make_cone(const RegionOptions& options, const Ellipsoid& /*ellipsoid*/) {
+RegionPointer make_cone(const RegionOptions& options, const Ellipsoid& ellipsoid) {
   const auto [place, radius_text] = point_and_radius(options.cone);
   const Geodetic at = parse_point(place).position;
   const Radius radius = parse_radius(radius_text);
   const auto center = globe::geo::normal_from_degrees(at.lat_deg, at.lon_deg);
-  return std::make_shared<globe::htm::Cone>(center, radius.value);
+  if (radius.is_angle) return std::make_shared<globe::htm::Cone>(center, radius.value);
+  if (ellipsoid.f != 0.0) return std::make_shared<globe::region::EllipsoidCone>(ellipsoid, at, radius.value);
+  const double radius_deg = radius.value / ellipsoid.a * (180.0 / std::numbers::pi);
+  return std::make_shared<globe::htm::Cone>(center, std::min(radius_deg, 180.0));
 }
 
 bool is_file_name(const std::string& text) {
@@ -116,7 +123,14 @@ std::vector<Geometry::Rings> polygons_of_file(const std::string& path) {
   return polygons;
 }
 
-/// "LAT,LON LAT,LON ..." or "LAT,LON;LAT,LON;..." as one ring, the last corner without a repeated first.
+/// The longitude of "LAT,LON" or "LAT LON" as written, when both are plain numbers: an edge of a map from 170
+/// to 190 is not one from 170 to -170.
+std::optional<double> plain_longitude(const std::string& word) {
+  const std::size_t comma = word.find_first_of(", ");
+  return comma == std::string::npos ? std::nullopt : parse_number(trimmed(word.substr(comma + 1)));
+}
+
+/// "LAT,LON LAT,LON ...", or places of any form with semicolons between them, as one ring.
 Geometry::Line ring_of_text(const std::string& text) {
   const bool semicolons = text.find(';') != std::string::npos;
   Geometry::Line ring;
@@ -127,17 +141,12 @@ Geometry::Line ring_of_text(const std::string& text) {
     at = end + 1;
     if (word.empty()) continue;
     ring.push_back(parse_point(word).position);
+    if (const auto lon = plain_longitude(word)) ring.back().lon_deg = *lon;
   }
   return ring;
 }
 
-RegionPointer make_polygon(const RegionOptions& options) {
-  std::vector<Geometry::Rings> polygons;
-  if (is_file_name(options.polygon)) {
-    polygons = polygons_of_file(options.polygon);
-  } else {
-    polygons.push_back({ring_of_text(options.polygon)});
-  }
+RegionPointer make_great_circle_polygon(const std::vector<Geometry::Rings>& polygons) {
   std::vector<globe::htm::Polygon::Rings> normals;
   for (const Geometry::Rings& rings : polygons) {
     normals.emplace_back();
@@ -148,6 +157,50 @@ RegionPointer make_polygon(const RegionOptions& options) {
     }
   }
   return std::make_shared<globe::htm::Polygon>(normals);
+}
+
+RegionPointer make_map_polygon(const std::vector<Geometry::Rings>& polygons) {
+  std::vector<globe::region::MapPolygon::Rings> maps;
+  for (const Geometry::Rings& rings : polygons) {
+    maps.emplace_back();
+    for (const Geometry::Line& ring : rings) {
+      maps.back().emplace_back();
+      for (const Geodetic& at : ring) maps.back().back().push_back({at.lat_deg, at.lon_deg});
+    }
+  }
+  return std::make_shared<globe::region::MapPolygon>(maps);
+}
+
+RegionPointer make_polygon(const RegionOptions& options) {
+  std::vector<Geometry::Rings> polygons;
+  if (is_file_name(options.polygon)) {
+    polygons = polygons_of_file(options.polygon);
+  } else {
+    polygons.push_back({ring_of_text(options.polygon)});
+  }
+  return options.edges == "map" ? make_map_polygon(polygons) : make_great_circle_polygon(polygons);
+}
+
+RegionPointer make_box(const RegionOptions& options) {
+  std::array<double, 4> sides{};
+  std::size_t count = 0;
+  std::string_view rest = options.box;
+  for (bool more = true; more; ++count) {
+    const std::size_t comma = rest.find(',');
+    const auto number = parse_number(trimmed(std::string(rest.substr(0, comma))));
+    if (!number || count == sides.size()) {
+      throw UsageError("--box", "'" + options.box + "' is not W,S,E,N",
+                       "give four numbers of degrees such as 5.9,45.8,10.5,47.8");
+    }
+    sides[count] = *number;
+    more = comma != std::string_view::npos;
+    if (more) rest.remove_prefix(comma + 1);
+  }
+  if (count != sides.size()) {
+    throw UsageError("--box", "'" + options.box + "' is not W,S,E,N",
+                     "give four numbers of degrees such as 5.9,45.8,10.5,47.8");
+  }
+  return std::make_shared<globe::region::LatLonBox>(sides[0], sides[1], sides[2], sides[3]);
 }
 
 }  // namespace
@@ -172,7 +225,9 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
 }
 
 RegionPointer make_region(const RegionOptions& options, const Ellipsoid& ellipsoid) {
-  RegionPointer region = !options.cone.empty() ? make_cone(options, ellipsoid) : make_polygon(options);
+  RegionPointer region = !options.cone.empty()  ? make_cone(options, ellipsoid)
+                         : !options.box.empty() ? make_box(options)
+                                                : make_polygon(options);
   if (options.complement) region = std::make_shared<globe::htm::Complement>(std::move(region));
   return region;
 }

@@ -1,9 +1,19 @@
 #include "globe/htm/box_tree.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <numeric>
 
 namespace globe::htm {
+
+Box trixel_box(const Corners& t) {
+  constexpr double kMargin = 1e-15;  // more than the rounding of the faces
+  const dvec3 a = t[1] - t[0], b = t[2] - t[1], c = t[0] - t[2];
+  const double side2 = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
+  // A trixel rises above its flat triangle by less: by r²/2 (1 + r²/4 ...), r² <= side²/3; 0.21 side² in an
+  // octant.
+  return box_around(t, 0.25 * side2 + kMargin);
+}
 
 BoxTree::BoxTree(std::span<const Box> boxes) : items_(boxes.size()) {
   std::iota(items_.begin(), items_.end(), 0U);

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-namespace globe::htm {
+#include "globe/htm/trixel.h"
 
-using glm::dvec3;
+namespace globe::htm {
 
 /// An axis-aligned box, its faces included.
 struct Box {
@@ -31,6 +31,9 @@ inline Box box_around(std::span<const dvec3> points, double margin) {
   }
   return {box.low - dvec3(margin), box.high + dvec3(margin)};
 }
+
+/// A box that holds a whole trixel.
+Box trixel_box(const Corners& trixel);
 
 /// Boxes in a balanced binary tree, so that the few that a query meets are found among many.
 ///

@@ -32,13 +32,6 @@ Box arc_box(const dvec3& a, const dvec3& b) {
   return box_around(ends, bulge(squared_distance(a, b)) + kMargin);
 }
 
-Box trixel_box(const Corners& t) {
-  const double side2 =
-      std::max({squared_distance(t[0], t[1]), squared_distance(t[1], t[2]), squared_distance(t[2], t[0])});
-  // Above its flat triangle a trixel rises by r²/2 (1 + r²/4 ...), r² = side²/3 or less: 0.42 in an octant.
-  return box_around(t, 0.25 * side2 + kMargin);
-}
-
 /// -1 or 1: on which side of the great circle from a to b a corner lies; on the circle itself counts as
 /// left, as if it had been moved there, so that no arc runs through a corner.
 int side(const dvec3& a, const dvec3& b, const dvec3& corner) {
