@@ -2,17 +2,21 @@
 
 #include <cassert>
 
+#include "globe/htm/widest_runs.h"
+
 namespace globe::htm {
 namespace {
 
 /// Joins ranges that come in rising order, and hands over those that are complete.
 class Joiner {
  public:
-  explicit Joiner(const std::function<void(const IdRange&)>& visit) : visit_(visit) {}
+  Joiner(const std::function<void(const IdRange&)>& visit, bool by_inside)
+      : visit_(visit), by_inside_(by_inside) {}
 
   void add(const IdRange& range) {
-    if (any_ && range.first == range_.last + 1) {
+    if (any_ && range.first == range_.last + 1 && !(by_inside_ && range.inside != range_.inside)) {
       range_.last = range.last;
+      range_.inside = range_.inside && range.inside;
       return;
     }
     finish();
@@ -27,13 +31,14 @@ class Joiner {
 
  private:
   const std::function<void(const IdRange&)>& visit_;
+  bool by_inside_;
   IdRange range_;
   bool any_ = false;
 };
 
-IdRange descendants(Trixel t, int levels_below) {
+IdRange descendants(Trixel t, int levels_below, bool inside) {
   const int shift = 2 * levels_below;
-  return {t.id << shift, ((t.id + 1) << shift) - 1};
+  return {t.id << shift, ((t.id + 1) << shift) - 1, inside};
 }
 
 void descend(const Region& region, const CoverSettings& settings, Trixel t, const Corners& corners,
@@ -41,7 +46,7 @@ void descend(const Region& region, const CoverSettings& settings, Trixel t, cons
   const Relation relation = region.relation(corners);
   if (relation == Relation::kDisjoint) return;
   if (relation == Relation::kInside || (levels_below == 0 && !settings.inner)) {
-    joiner.add(descendants(t, levels_below));
+    joiner.add(descendants(t, levels_below, relation == Relation::kInside));
     return;
   }
   if (levels_below == 0) return;
@@ -49,22 +54,58 @@ void descend(const Region& region, const CoverSettings& settings, Trixel t, cons
     descend(region, settings, child(t, k), child_corners(corners, k), levels_below - 1, joiner);
 }
 
+/// Whether all trixels of a range lie in the region: the fewest that make it up are asked.
+bool all_inside(const Region& region, int level, std::uint64_t first, std::uint64_t last) {
+  while (first <= last) {
+    int up = 0;
+    while (up < level && first % (4ULL << (2 * up)) == 0 && first + (4ULL << (2 * up)) - 1 <= last) ++up;
+    if (region.relation(corners({first >> (2 * up)})) != Relation::kInside) return false;
+    first += 1ULL << (2 * up);
+  }
+  return true;
+}
+
+std::vector<IdRange> inner_within(const Region& region, int level, std::size_t max_ranges) {
+  std::vector<IdRange> ranges;
+  for (const Run& run : widest_runs(region, level, Relation::kInside, max_ranges, false))
+    ranges.push_back({run.first, run.last, true});
+  return ranges;
+}
+
+/// All ids but the widest gaps: one fewer between ranges than there are ranges, and those at both ends.
+std::vector<IdRange> outer_within(const Region& region, int level, std::size_t max_ranges) {
+  std::vector<IdRange> ranges;
+  std::uint64_t first = kFirstRoot << (2 * level);
+  const std::uint64_t end = (kFirstRoot + kRoots) << (2 * level);
+  const auto add = [&](std::uint64_t last) {
+    if (first <= last) ranges.push_back({first, last, all_inside(region, level, first, last)});
+  };
+  for (const Run& gap : widest_runs(region, level, Relation::kDisjoint, max_ranges - 1, true)) {
+    add(gap.first - 1);
+    first = gap.last + 1;
+  }
+  add(end - 1);
+  return ranges;
+}
+
 }  // namespace
 
 void visit_cover(const Region& region, const CoverSettings& settings,
                  const std::function<void(const IdRange&)>& visit) {
   assert(settings.level >= 0 && settings.level <= kMaxLevel && settings.max_ranges == 0);
-  Joiner joiner(visit);
+  Joiner joiner(visit, settings.by_inside);
   for (std::uint64_t root = kFirstRoot; root < kFirstRoot + kRoots; ++root)
     descend(region, settings, {root}, corners({root}), settings.level, joiner);
   joiner.finish();
 }
 
 std::vector<IdRange> cover(const Region& region, const CoverSettings& settings) {
+  if (settings.max_ranges > 0) {
+    return settings.inner ? inner_within(region, settings.level, settings.max_ranges)
+                          : outer_within(region, settings.level, settings.max_ranges);
+  }
   std::vector<IdRange> ranges;
-  CoverSettings all = settings;
-  all.max_ranges = 0;
-  visit_cover(region, all, [&](const IdRange& range) { ranges.push_back(range); });
+  visit_cover(region, settings, [&](const IdRange& range) { ranges.push_back(range); });
   return ranges;
 }
 
