@@ -54,15 +54,12 @@ void descend(const Region& region, const CoverSettings& settings, Trixel t, cons
     descend(region, settings, child(t, k), child_corners(corners, k), levels_below - 1, joiner);
 }
 
-/// Whether all trixels of a range lie in the region: the fewest that make it up are asked.
-bool all_inside(const Region& region, int level, std::uint64_t first, std::uint64_t last) {
-  while (first <= last) {
-    int up = 0;
-    while (up < level && first % (4ULL << (2 * up)) == 0 && first + (4ULL << (2 * up)) - 1 <= last) ++up;
-    if (region.relation(corners({first >> (2 * up)})) != Relation::kInside) return false;
-    first += 1ULL << (2 * up);
-  }
-  return true;
+/// Whether all trixels of a range lie in the region.
+bool all_inside(const Region& region, int level, const IdRange& range) {
+  bool all = true;
+  for_each_whole_trixel(level, range,
+                        [&](Trixel t) { all = all && region.relation(corners(t)) == Relation::kInside; });
+  return all;
 }
 
 std::vector<IdRange> inner_within(const Region& region, int level, std::size_t max_ranges) {
@@ -78,7 +75,7 @@ std::vector<IdRange> outer_within(const Region& region, int level, std::size_t m
   std::uint64_t first = kFirstRoot << (2 * level);
   const std::uint64_t end = (kFirstRoot + kRoots) << (2 * level);
   const auto add = [&](std::uint64_t last) {
-    if (first <= last) ranges.push_back({first, last, all_inside(region, level, first, last)});
+    if (first <= last) ranges.push_back({first, last, all_inside(region, level, {first, last})});
   };
   for (const Run& gap : widest_runs(region, level, Relation::kDisjoint, max_ranges - 1, true)) {
     add(gap.first - 1);

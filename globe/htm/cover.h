@@ -42,4 +42,16 @@ std::vector<IdRange> cover(const Region& region, const CoverSettings& settings);
 void visit_cover(const Region& region, const CoverSettings& settings,
                  const std::function<void(const IdRange&)>& visit);
 
+/// Hands over the largest trixels that make up a range of ids of a level, in rising order.
+template <typename Visit>
+void for_each_whole_trixel(int level, const IdRange& range, const Visit& visit) {
+  for (std::uint64_t first = range.first; first <= range.last;) {
+    int up = 0;  // levels by which the trixel that begins here can be coarser
+    while (up < level && first % (4ULL << (2 * up)) == 0 && first + (4ULL << (2 * up)) - 1 <= range.last)
+      ++up;
+    visit(Trixel{first >> (2 * up)});
+    first += 1ULL << (2 * up);
+  }
+}
+
 }  // namespace globe::htm
