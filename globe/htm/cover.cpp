@@ -50,8 +50,9 @@ void descend(const Region& region, const CoverSettings& settings, Trixel t, cons
     return;
   }
   if (levels_below == 0) return;
-  for (int k = 0; k < 4; ++k)
-    descend(region, settings, child(t, k), child_corners(corners, k), levels_below - 1, joiner);
+  const std::array<Corners, 4> children = children_corners(corners);
+  for (std::size_t k = 0; k < 4; ++k)
+    descend(region, settings, {t.id << 2 | k}, children[k], levels_below - 1, joiner);
 }
 
 /// Whether all trixels of a range lie in the region.

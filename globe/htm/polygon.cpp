@@ -32,32 +32,30 @@ Box arc_box(const dvec3& a, const dvec3& b) {
   return box_around(ends, bulge(squared_distance(a, b)) + kMargin);
 }
 
-/// -1 or 1: on which side of the great circle from a to b a corner lies; on the circle itself counts as
-/// left, as if it had been moved there, so that no arc runs through a corner.
-int side(const dvec3& a, const dvec3& b, const dvec3& corner) {
-  return orientation(a, b, corner).sign >= 0 ? 1 : -1;
+/// -1 or 1: on which side of the great circle a corner lies; on the circle itself counts as left, as if the
+/// corner had been moved there, so that no arc runs through one.
+int side(const GreatCircle& circle, const dvec3& corner) { return circle.side(corner) >= 0 ? 1 : -1; }
+
+/// Whether an arc crosses an edge. Neither end of the arc lies on the edge.
+bool crosses(const GreatCircle& arc, const GreatCircle& edge) {
+  const int side_a = side(arc, edge.a());
+  if (side_a == side(arc, edge.b())) return false;
+  return edge.side(arc.a()) == -side_a && edge.side(arc.b()) == side_a;
 }
 
-/// Whether arc pq crosses edge ab. Neither p nor q lies on the edge.
-bool crosses(const dvec3& p, const dvec3& q, const dvec3& a, const dvec3& b) {
-  const int side_a = side(p, q, a);
-  if (side_a == side(p, q, b)) return false;
-  return orientation(a, b, p).sign == -side_a && orientation(a, b, q).sign == side_a;
+/// Whether two edges cross at a point inside both, ends excluded.
+bool crosses_inside(const GreatCircle& e, const GreatCircle& f) {
+  const int side_a = e.side(f.a());
+  if (side_a == 0 || e.side(f.b()) != -side_a) return false;
+  return f.side(e.a()) == -side_a && f.side(e.b()) == side_a;
 }
 
-/// Whether arcs pq and ab cross at a point inside both, ends excluded.
-bool crosses_inside(const dvec3& p, const dvec3& q, const dvec3& a, const dvec3& b) {
-  const int side_a = orientation(p, q, a).sign;
-  if (side_a == 0 || orientation(p, q, b).sign != -side_a) return false;
-  return orientation(a, b, p).sign == -side_a && orientation(a, b, q).sign == side_a;
-}
-
-/// Whether u lies on arc ab, exactly.
-bool on_arc(const dvec3& a, const dvec3& b, const dvec3& u) {
-  if (u == a || u == b) return true;
-  if (orientation(a, b, u).sign != 0) return false;
-  const double length2 = squared_distance(a, b);
-  return squared_distance(a, u) <= length2 && squared_distance(b, u) <= length2;
+/// Whether u lies on an edge, exactly.
+bool on_edge(const GreatCircle& edge, const dvec3& u) {
+  if (u == edge.a() || u == edge.b()) return true;
+  if (edge.side(u) != 0) return false;
+  const double length2 = squared_distance(edge.a(), edge.b());
+  return squared_distance(edge.a(), u) <= length2 && squared_distance(edge.b(), u) <= length2;
 }
 
 /// Area of the ring as seen from o, which lies on no edge: the sum over triangles o, a, b. Counts parts by
@@ -123,10 +121,11 @@ Polygon::Polygon(std::span<const Rings> polygons) : polygon_count_(polygons.size
   if (edges_.empty()) throw UsageError("polygon", "it has no corners", kHowToWrite);
   std::vector<Box> boxes;
   boxes.reserve(edges_.size());
-  for (const Edge& edge : edges_) boxes.push_back(arc_box(edge.a, edge.b));
+  for (const Edge& edge : edges_) boxes.push_back(arc_box(edge.circle.a(), edge.circle.b()));
   tree_ = BoxTree(boxes);
   refuse_crossings();
   find_references();
+  find_surroundings();
 }
 
 void Polygon::add_ring(const Ring& ring, std::uint32_t polygon, std::uint32_t number) {
@@ -136,7 +135,7 @@ void Polygon::add_ring(const Ring& ring, std::uint32_t polygon, std::uint32_t nu
     const dvec3& b = ring[k + 1 == ring.size() ? 0 : k + 1];
     if (different.size() < 3) different.insert({a.x, a.y, a.z});
     if (a == b) continue;
-    edges_.push_back({a, b, polygon, number, k});
+    edges_.push_back({GreatCircle(a, b), polygon, number, k});
     if (squared_distance(a, -b) < 1e-28) {
       throw UsageError("polygon", edge_name(edges_.back()) + " joins two opposite points of the sphere",
                        "put a corner between them");
@@ -159,11 +158,11 @@ std::string Polygon::edge_name(const Edge& edge) const {
 void Polygon::refuse_crossings() const {
   for (std::uint32_t k = 0; k < edges_.size(); ++k) {
     const Edge& e = edges_[k];
-    const Box box = arc_box(e.a, e.b);
+    const Box box = arc_box(e.circle.a(), e.circle.b());
     tree_.any([&](const Box& other) { return box.meets(other); },
               [&](std::uint32_t m) {
                 const Edge& f = edges_[m];
-                if (m <= k || f.polygon != e.polygon || !crosses_inside(e.a, e.b, f.a, f.b)) return false;
+                if (m <= k || f.polygon != e.polygon || !crosses_inside(e.circle, f.circle)) return false;
                 throw UsageError("polygon", edge_name(e) + " crosses " + edge_name(f),
                                  "give the corners in order along the border");
               });
@@ -179,8 +178,7 @@ void Polygon::find_references() {
       const Box around = box_around(std::span<const dvec3>(&u, 1), kClear);
       return tree_.any([&](const Box& box) { return around.meets(box); },
                        [&](std::uint32_t k) {
-                         const dvec3 normal = glm::normalize(glm::cross(edges_[k].a, edges_[k].b));
-                         return std::abs(glm::dot(normal, u)) < kClear;
+                         return std::abs(glm::dot(glm::normalize(edges_[k].circle.normal()), u)) < kClear;
                        });
     });
     if (!clear) continue;
@@ -193,7 +191,7 @@ void Polygon::find_references() {
     const Edge& edge = edges_[k];
     std::vector<dvec3> ring;
     for (; k < edges_.size() && edges_[k].polygon == edge.polygon && edges_[k].ring == edge.ring; ++k)
-      ring.push_back(edges_[k].a);
+      ring.push_back(edges_[k].circle.a());
     if (smaller_side_is_opposite(ring, -first.at)) toggle(first.holders, edge.polygon);
   }
   for (std::size_t k = 1; k < references_.size(); ++k) {
@@ -204,25 +202,52 @@ void Polygon::find_references() {
 bool Polygon::on_an_edge(const dvec3& u) const {
   const Box around = box_around(std::span<const dvec3>(&u, 1), 0.0);
   return tree_.any([&](const Box& box) { return around.meets(box); },
-                   [&](std::uint32_t k) { return on_arc(edges_[k].a, edges_[k].b, u); });
+                   [&](std::uint32_t k) { return on_edge(edges_[k].circle, u); });
+}
+
+void Polygon::find_surroundings() {
+  constexpr double kWidest = 1.2;  // chord; above 70 degrees a cone around everything saves little
+  constexpr double kBeyondRounding = 1.0 + 1e-9;
+  dvec3 sum(0.0);
+  for (const Edge& edge : edges_) sum += edge.circle.a();
+  if (glm::dot(sum, sum) == 0.0) return;
+  const dvec3 middle = glm::normalize(sum);
+  double chord2 = 0;
+  for (const Edge& edge : edges_) chord2 = std::max(chord2, squared_distance(middle, edge.circle.a()));
+  const double chord = std::sqrt(chord2) * kBeyondRounding + kMargin;
+  if (chord > kWidest) return;
+  // A cone of less than 90 degrees that holds the ends of an edge holds the edge.
+  around_.emplace(middle, 2.0 * std::asin(0.5 * chord) * (180.0 / std::numbers::pi));
+  held_beyond_ = held(-middle);
+}
+
+template <typename Visit>
+void Polygon::visit_crossed(const dvec3& p, const dvec3& u, const Visit& visit) const {
+  const GreatCircle arc(p, u);
+  const Box around = arc_box(p, u);
+  const dvec3 magnitude = 0.5 * glm::abs(arc.normal());
+  const auto may_meet = [&](const Box& box) {
+    return around.meets(box) && std::abs(glm::dot(arc.normal(), 0.5 * (box.low + box.high))) <=
+                                    glm::dot(magnitude, box.high - box.low) + 8.0 * kMargin;
+  };
+  tree_.any(may_meet, [&](std::uint32_t k) {
+    if (crosses(arc, edges_[k].circle)) visit(edges_[k]);
+    return false;
+  });
 }
 
 std::vector<std::uint32_t> Polygon::holders(const Reference& from, const dvec3& u) const {
   std::vector<std::uint32_t> result = from.holders;
-  const dvec3& p = from.at;
-  const Box around = arc_box(p, u);
-  const dvec3 normal = glm::cross(p, u);
-  const dvec3 magnitude = glm::abs(normal);
-  const auto may_meet = [&](const Box& box) {
-    const dvec3 middle = 0.5 * (box.low + box.high);
-    const dvec3 half = 0.5 * (box.high - box.low) + dvec3(kMargin);
-    return around.meets(box) && std::abs(glm::dot(normal, middle)) <= glm::dot(magnitude, half) + kMargin;
-  };
-  tree_.any(may_meet, [&](std::uint32_t k) {
-    if (crosses(p, u, edges_[k].a, edges_[k].b)) toggle(result, edges_[k].polygon);
-    return false;
-  });
+  visit_crossed(from.at, u, [&](const Edge& edge) { toggle(result, edge.polygon); });
   return result;
+}
+
+bool Polygon::held(const dvec3& u) const {
+  const Reference& from = nearest_reference(u);
+  if (polygon_count_ > 1) return !holders(from, u).empty();
+  bool odd = !from.holders.empty();
+  visit_crossed(from.at, u, [&](const Edge&) { odd = !odd; });
+  return odd;
 }
 
 const Polygon::Reference& Polygon::nearest_reference(const dvec3& u) const {
@@ -232,28 +257,31 @@ const Polygon::Reference& Polygon::nearest_reference(const dvec3& u) const {
 }
 
 bool Polygon::contains(const dvec3& u) const {
-  return on_an_edge(u) || !holders(nearest_reference(u), u).empty();
+  if (around_ && !around_->contains(u)) return held_beyond_;
+  return on_an_edge(u) || held(u);
 }
 
 Relation Polygon::relation(const Corners& t) const {
+  const auto relation_if = [](bool inside) { return inside ? Relation::kInside : Relation::kDisjoint; };
+  if (around_ && around_->relation(t) == Relation::kDisjoint) return relation_if(held_beyond_);
   const Box around = trixel_box(t);
-  const auto beyond_a_side = [&](const Edge& e) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const dvec3& p = t[k];
-      const dvec3& q = t[k == 2 ? 0 : k + 1];
-      if (orientation(p, q, e.a).sign < 0 && orientation(p, q, e.b).sign < 0) return true;
-    }
-    return false;
+  const std::array<GreatCircle, 3> sides{GreatCircle(t[0], t[1]), GreatCircle(t[1], t[2]),
+                                         GreatCircle(t[2], t[0])};
+  const auto beyond_a_side = [&](const GreatCircle& edge) {
+    return std::any_of(sides.begin(), sides.end(), [&](const GreatCircle& side) {
+      return side.side(edge.a()) < 0 && side.side(edge.b()) < 0;
+    });
   };
-  const auto all_to_one_side = [&](const Edge& e) {
-    const int sign = orientation(e.a, e.b, t[0]).sign;
-    return sign != 0 && orientation(e.a, e.b, t[1]).sign == sign && orientation(e.a, e.b, t[2]).sign == sign;
+  const auto all_to_one_side = [&](const GreatCircle& edge) {
+    const int sign = edge.side(t[0]);
+    return sign != 0 && edge.side(t[1]) == sign && edge.side(t[2]) == sign;
   };
-  const bool touched =
-      tree_.any([&](const Box& box) { return around.meets(box); },
-                [&](std::uint32_t k) { return !beyond_a_side(edges_[k]) && !all_to_one_side(edges_[k]); });
-  if (touched) return Relation::kTouches;
-  return holders(nearest_reference(t[0]), t[0]).empty() ? Relation::kDisjoint : Relation::kInside;
+  const bool touched = tree_.any([&](const Box& box) { return around.meets(box); },
+                                 [&](std::uint32_t k) {
+                                   const GreatCircle& edge = edges_[k].circle;
+                                   return !beyond_a_side(edge) && !all_to_one_side(edge);
+                                 });
+  return touched ? Relation::kTouches : relation_if(held(t[0]));
 }
 
 }  // namespace globe::htm

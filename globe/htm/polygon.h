@@ -2,10 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "globe/htm/box_tree.h"
+#include "globe/htm/cone.h"
+#include "globe/htm/great_circle.h"
 #include "globe/htm/region.h"
 
 namespace globe::htm {
@@ -36,7 +40,7 @@ class Polygon final : public Region {
 
  private:
   struct Edge {
-    dvec3 a, b;
+    GreatCircle circle;                               ///< from a to b
     std::uint32_t polygon = 0, ring = 0, number = 0;  ///< from 0; the number is that of corner a as given
   };
   /// A direction off all edges, and the polygons that hold it, in rising order.
@@ -48,9 +52,15 @@ class Polygon final : public Region {
   void add_ring(const Ring& ring, std::uint32_t polygon, std::uint32_t number);
   void refuse_crossings() const;
   void find_references();
+  void find_surroundings();
   bool on_an_edge(const dvec3& u) const;
-  /// The polygons that hold u, from those that hold a reference. REQUIRES: u on no edge, not opposite to it.
+  /// Asks `visit` of each edge that the arc from p to u crosses. REQUIRES: both on no edge, not opposite.
+  template <typename Visit>
+  void visit_crossed(const dvec3& p, const dvec3& u, const Visit& visit) const;
+  /// The polygons that hold u, from those that hold the reference.
   std::vector<std::uint32_t> holders(const Reference& from, const dvec3& u) const;
+  /// Whether any polygon holds u, which is on no edge.
+  bool held(const dvec3& u) const;
   const Reference& nearest_reference(const dvec3& u) const;
   std::string edge_name(const Edge& edge) const;
 
@@ -59,6 +69,8 @@ class Polygon final : public Region {
   std::size_t ring_count_ = 0;
   BoxTree tree_;
   std::vector<Reference> references_;
+  std::optional<Cone> around_;  ///< holds all edges, if they lie in less than a half of the sphere
+  bool held_beyond_ = false;    ///< what is outside `around_`
 };
 
 }  // namespace globe::htm

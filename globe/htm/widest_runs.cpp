@@ -13,24 +13,27 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Area of a trixel, steradians.
+/// Area of a trixel, steradians (Eriksson 1990).
 double area_of(const Corners& t) {
-  constexpr double kSmallSide2 = 0.01;
-  const dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
-  if (glm::dot(t[1] - t[0], t[1] - t[0]) < kSmallSide2) return 0.5 * glm::length(normal);
-  // Eriksson 1990.
-  return 2.0 * std::atan2(glm::dot(normal, t[0]),
+  return 2.0 * std::atan2(glm::dot(glm::cross(t[1] - t[0], t[2] - t[0]), t[0]),
                           1.0 + glm::dot(t[0], t[1]) + glm::dot(t[1], t[2]) + glm::dot(t[2], t[0]));
 }
 
-/// Ids of the level asked for, in rising order: all wanted, or a trixel that is partly so. What lies between
-/// two pieces is not wanted.
+constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+/// Ids of the level asked for, in rising order: all wanted, or those of a trixel that is partly so. What lies
+/// between two pieces is not wanted.
 struct Piece {
   std::uint64_t first = 0, last = 0;
   double area = 0;
-  bool open = false;
-  Trixel trixel{};    ///< if open
-  Corners corners{};  ///< if open
+  std::uint32_t open = kNone;  ///< number of the trixel, if partly wanted
+
+  bool is_open() const { return open != kNone; }
+};
+
+struct OpenTrixel {
+  Trixel trixel;
+  Corners corners;
 };
 
 class Search {
@@ -46,7 +49,7 @@ class Search {
 
   std::vector<Run> run() {
     for (std::uint64_t root = kFirstRoot; root < kFirstRoot + kRoots; ++root)
-      classify({root}, corners({root}), level_);
+      classify({root}, corners({root}), 0.5 * std::numbers::pi, level_);
     for (int below = level_ - 1; below >= 0 && drop_hopeless(); --below) split(below);
     return choose();
   }
@@ -59,7 +62,7 @@ class Search {
   static bool meet(const Piece& a, const Piece& b) { return a.last + 1 == b.first; }
 
   void append(const Piece& piece) {
-    if (!piece.open && !pieces_.empty() && !pieces_.back().open && meet(pieces_.back(), piece)) {
+    if (!piece.is_open() && !pieces_.empty() && !pieces_.back().is_open() && meet(pieces_.back(), piece)) {
       pieces_.back().last = piece.last;
       pieces_.back().area += piece.area;
     } else {
@@ -67,24 +70,33 @@ class Search {
     }
   }
 
-  void classify(Trixel t, const Corners& corners, int levels_below) {
+  void classify(Trixel t, const Corners& corners, double area, int levels_below) {
     const Relation relation = region_.relation(corners);
     const bool open = relation == Relation::kTouches && levels_below > 0;
     if (!open && relation != wanted_) return;
     const int shift = 2 * levels_below;
-    append({t.id << shift, ((t.id + 1) << shift) - 1, area_of(corners), open, t, corners});
+    append({t.id << shift, ((t.id + 1) << shift) - 1, area,
+            open ? static_cast<std::uint32_t>(open_.size()) : kNone});
+    if (open) open_.push_back({t, corners});
   }
 
   void split(int levels_below) {
-    std::vector<Piece> coarse;
-    coarse.swap(pieces_);
-    for (const Piece& piece : coarse) {
-      if (!piece.open) {
+    constexpr double kFlat = 1e-3;  // steradians; the children of smaller trixels are equal to some per cent
+    coarse_pieces_.swap(pieces_);
+    coarse_.swap(open_);
+    pieces_.clear();
+    open_.clear();
+    for (const Piece& piece : coarse_pieces_) {
+      if (!piece.is_open()) {
         append(piece);
         continue;
       }
-      for (int k = 0; k < 4; ++k)
-        classify(child(piece.trixel, k), child_corners(piece.corners, k), levels_below);
+      const auto& [trixel, corners] = coarse_[piece.open];
+      const std::array<Corners, 4> children = children_corners(corners);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double area = piece.area > kFlat ? area_of(children[k]) : 0.25 * piece.area;
+        classify({trixel.id << 2 | k}, children[k], area, levels_below);
+      }
     }
   }
 
@@ -100,7 +112,7 @@ class Search {
   /// chosen.
   double reach(const Piece& piece, const Piece* next, const Piece* beyond) const {
     if (next == nullptr) return is_end(piece) ? kInfinity : 0.0;
-    if (next->open) return next->area;
+    if (next->is_open()) return next->area;
     return is_end(*next) ? kInfinity : next->area + (beyond == nullptr ? 0.0 : beyond->area);
   }
 
@@ -119,8 +131,8 @@ class Search {
     std::vector<double> areas;
     double chosen_area = 0;  // of the ends, and of the widest runs so far
     for (const Piece& piece : pieces_) {
-      if (!piece.open && is_end(piece)) chosen_area += piece.area;
-      if (!piece.open && !is_end(piece)) areas.push_back(piece.area);
+      if (!piece.is_open() && is_end(piece)) chosen_area += piece.area;
+      if (!piece.is_open() && !is_end(piece)) areas.push_back(piece.area);
     }
     double narrowest = count_ == 0 ? kInfinity : 0.0;
     const bool enough = areas.size() >= count_;
@@ -133,7 +145,7 @@ class Search {
     double open_area = 0;
     std::vector<bool> hopeless(pieces_.size());
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
-      if (!pieces_[k].open) continue;
+      if (!pieces_[k].is_open()) continue;
       hopeless[k] = widest_through(k) <= narrowest;
       if (!hopeless[k]) open_area += pieces_[k].area;
     }
@@ -148,7 +160,7 @@ class Search {
   std::vector<Run> choose() const {
     std::vector<Run> runs, ends;
     for (const Piece& piece : pieces_)
-      if (!piece.open) (is_end(piece) ? ends : runs).push_back({piece.first, piece.last, piece.area});
+      if (!piece.is_open()) (is_end(piece) ? ends : runs).push_back({piece.first, piece.last, piece.area});
     std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) {
       return a.area != b.area ? a.area > b.area : a.first < b.first;
     });
@@ -164,7 +176,8 @@ class Search {
   std::size_t count_;
   bool with_ends_;
   std::uint64_t first_id_, last_id_;
-  std::vector<Piece> pieces_;
+  std::vector<Piece> pieces_, coarse_pieces_;
+  std::vector<OpenTrixel> open_, coarse_;
 };
 
 }  // namespace
