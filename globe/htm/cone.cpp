@@ -35,6 +35,7 @@ Cone::Cone(const dvec3& center, double radius_deg)
   // Negative bounds stay negative when squared, so that nothing lies below them.
   contains2_ = outside_ ? signed_square(chord - kBorder) : signed_square(chord + kBorder);
   certain2_ = outside_ ? signed_square(chord - 2.0 * kBorder) : chord * chord;
+  everything_ = outside_ && chord <= kBorder;
   const double possible = outside_ ? chord : chord + 2.0 * kBorder;
   possible2_ = possible * possible;
   possible_sine2_ = possible2_ * std::max(0.0, 1.0 - 0.25 * possible2_) * (1.0 + 0x1p-50);
@@ -46,6 +47,7 @@ bool Cone::contains(const dvec3& u) const {
 }
 
 Relation Cone::relation(const Corners& trixel) const {
+  if (everything_) return Relation::kInside;
   const Relation cap = cap_relation(trixel);
   if (!outside_ || cap == Relation::kTouches) return cap;
   return cap == Relation::kInside ? Relation::kDisjoint : Relation::kInside;

@@ -29,6 +29,7 @@ class Cone final : public Region {
   dvec3 center_;
   double radius_deg_;
   bool outside_;           ///< the region is what lies outside the cap: the cone is wider than 90 degrees
+  bool everything_;        ///< not even the opposite point is left out
   dvec3 pole_;             ///< of the cap, whose radius is at most 90 degrees
   double contains2_;       ///< squared chord up to which (from which, if outside_) a direction is contained
   double certain2_;        ///< squared chord up to which a corner counts as in the cap for certain

@@ -45,6 +45,7 @@ bool crosses(const GreatCircle& arc, const GreatCircle& edge) {
 
 /// Whether two edges cross at a point inside both, ends excluded.
 bool crosses_inside(const GreatCircle& e, const GreatCircle& f) {
+  if (e.a() == f.a() || e.a() == f.b() || e.b() == f.a() || e.b() == f.b()) return false;
   const int side_a = e.side(f.a());
   if (side_a == 0 || e.side(f.b()) != -side_a) return false;
   return f.side(e.a()) == -side_a && f.side(e.b()) == side_a;
@@ -219,6 +220,8 @@ void Polygon::find_surroundings() {
   // A cone of less than 90 degrees that holds the ends of an edge holds the edge.
   around_.emplace(middle, 2.0 * std::asin(0.5 * chord) * (180.0 / std::numbers::pi));
   held_beyond_ = held(-middle);
+  // A reference close by: shorter arcs meet fewer edges.
+  if (!on_an_edge(middle)) references_.push_back({middle, holders(nearest_reference(middle), middle)});
 }
 
 template <typename Visit>

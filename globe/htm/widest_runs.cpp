@@ -146,7 +146,8 @@ class Search {
     std::vector<bool> hopeless(pieces_.size());
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
       if (!pieces_[k].is_open()) continue;
-      hopeless[k] = widest_through(k) <= narrowest;
+      const double widest = widest_through(k);
+      hopeless[k] = widest <= narrowest && widest < kInfinity;
       if (!hopeless[k]) open_area += pieces_[k].area;
     }
     std::size_t kept = 0;

@@ -18,9 +18,10 @@ struct CoverPlace {
 
 /// Several places a size: ranges and waste depend on where the index' seams run.
 inline std::vector<CoverPlace> cover_places(double radius_deg, int level) {
-  return {{48.21, 16.37, radius_deg, level}, {-33.45, -70.67, radius_deg, level}, {1.35, 103.82, radius_deg, level},
-          {71.29, -156.79, radius_deg, level}, {-77.85, 166.67, radius_deg, level}, {27.99, 86.93, radius_deg, level},
-          {40.71, -74.01, radius_deg, level}, {-1.29, 36.82, radius_deg, level}};
+  return {{48.21, 16.37, radius_deg, level},   {-33.45, -70.67, radius_deg, level},
+          {1.35, 103.82, radius_deg, level},   {71.29, -156.79, radius_deg, level},
+          {-77.85, 166.67, radius_deg, level}, {27.99, 86.93, radius_deg, level},
+          {40.71, -74.01, radius_deg, level},  {-1.29, 36.82, radius_deg, level}};
 }
 
 /// Twelve corners around the place, near and far in turn by a tenth.
@@ -31,8 +32,8 @@ inline std::vector<glm::dvec3> twelve_gon(const CoverPlace& place) {
   for (int k = 0; k < 12; ++k) {
     const double azimuth = -2.0 * M_PI * k / 12.0;
     const double r = place.radius_deg * (k % 2 == 0 ? 1.0 : 0.9) * M_PI / 180.0;
-    corners.push_back(glm::normalize(std::cos(r) * center +
-                                     std::sin(r) * (std::sin(azimuth) * frame.east + std::cos(azimuth) * frame.north)));
+    corners.push_back(glm::normalize(std::cos(r) * center + std::sin(r) * (std::sin(azimuth) * frame.east +
+                                                                           std::cos(azimuth) * frame.north)));
   }
   return corners;
 }

@@ -1,5 +1,5 @@
-// Covers: time, ranges and excess area, beside S2's where libs2-dev is installed. Each figure is a mean over the
-// same eight places.
+// Covers: time, ranges and excess area, beside S2's where libs2-dev is installed. Each figure is a mean over
+// the same eight places.
 
 #include <benchmark/benchmark.h>
 
@@ -12,7 +12,7 @@
 #include "globe/htm/cover.h"
 #include "globe/htm/polygon.h"
 #include "globe/htm/trixel.h"
-#include "tests/bench/cover_cases.h"
+#include "tests/bench/covers/cover_cases.h"
 
 namespace {
 
@@ -63,7 +63,8 @@ using MakeRegion = RegionPointer (*)(const CoverPlace&);
 using AreaOf = double (*)(const CoverPlace&);
 
 /// One cover an iteration, region made anew as a query does it.
-void run(benchmark::State& state, MakeRegion make, AreaOf area_of, double radius_deg, CoverSettings settings) {
+void run(benchmark::State& state, MakeRegion make, AreaOf area_of, double radius_deg,
+         CoverSettings settings) {
   const auto places = cover_places(radius_deg, settings.level);
   std::size_t k = 0;
   for (auto _ : state) {
@@ -95,7 +96,8 @@ const bool registered = [] {
     for (const Size& size : {Size{"0.01deg", 0.01, 16}, Size{"1deg", 1.0, 10}, Size{"10deg", 10.0, 8}}) {
       const std::string name = "cover." + shape.name + "." + size.name;
       const auto add = [&](const std::string& what, CoverSettings settings) {
-        benchmark::RegisterBenchmark((name + what).c_str(), run, shape.make, shape.area, size.radius_deg, settings);
+        benchmark::RegisterBenchmark((name + what).c_str(), run, shape.make, shape.area, size.radius_deg,
+                                     settings);
       };
       add(".full.l" + std::to_string(size.level), {size.level, false, 0});
       add(".inner.l" + std::to_string(size.level), {size.level, true, 0});
