@@ -211,7 +211,9 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
                                          "nmi: geodesic distance on the ellipsoid; "
                                          "in deg, arcmin, arcsec: angle between normals");
   CLI::Option* polygon = command.add_option(
-      "--polygon", options.polygon, "\"LAT,LON LAT,LON ...\" or a GeoJSON file; the smaller side is inside");
+      "--polygon", options.polygon,
+      "\"LAT,LON LAT,LON ...\" (or places of any form with ; between), or a GeoJSON file; the "
+      "smaller side is inside, with --edges map what the ring surrounds on the map");
   CLI::Option* box = command.add_option("--box", options.box,
                                         "W,S,E,N: between meridians and parallels; W > E runs across 180");
   cone->excludes(polygon)->excludes(box);
