@@ -10,6 +10,7 @@ std::string version() { return "globe " GLOBE_VERSION; }
 void add_commands(CLI::App& program, int& exit_status) {
   add_bench(program);
   add_convert(program, exit_status);
+  add_cover(program);
   add_fly(program);
   add_info(program, exit_status);
   add_shot(program);

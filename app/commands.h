@@ -22,6 +22,7 @@ std::vector<std::string> arguments(int argc, const char* const* argv);
 std::string version();
 
 void add_bench(CLI::App& program);
+void add_cover(CLI::App& program);
 void add_fly(CLI::App& program);
 void add_shot(CLI::App& program);
 

@@ -126,6 +126,13 @@ Corners child_corners(const Corners& c, int k) {
   return {c[own], midpoint(c[own], c[next(own)]), midpoint(c[previous(own)], c[own])};
 }
 
+std::array<Corners, 4> children_corners(const Corners& c) {
+  const dvec3 m01 = midpoint(c[0], c[1]);
+  const dvec3 m12 = midpoint(c[1], c[2]);
+  const dvec3 m20 = midpoint(c[2], c[0]);
+  return {Corners{c[0], m01, m20}, Corners{c[1], m12, m01}, Corners{c[2], m20, m12}, Corners{m12, m20, m01}};
+}
+
 Corners corners(Trixel t) {
   const int depth = level(t);
   Corners c = root_corners(root_index(t, depth));

@@ -63,6 +63,9 @@ Corners corners(Trixel trixel);
 /// Corners of child k of a trixel with the given corners.
 Corners child_corners(const Corners& corners, int k);
 
+/// Corners of all four children, in half the time.
+std::array<Corners, 4> children_corners(const Corners& corners);
+
 /// Unit vector to the sum of the corners.
 dvec3 center(Trixel trixel);
 
