@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "globe/htm/descent.h"
 #include "globe/htm/midpoint.h"
 #include "globe/htm/predicates.h"
 
@@ -148,7 +149,7 @@ Trixel root_at(const dvec3& u) {
   return {u.z >= 0.0 ? kFirstRoot + 7 - octant : kFirstRoot + octant};
 }
 
-Trixel trixel_at(const dvec3& u, int level, std::uint64_t* exact_calls) {
+Trixel trixel_by_walk(const dvec3& u, int level, std::uint64_t* exact_calls) {
   assert(level >= 0 && level <= kMaxLevel);
   assert(std::isfinite(u.x) && std::isfinite(u.y) && std::isfinite(u.z));
   std::uint64_t exact = 0;
@@ -181,6 +182,20 @@ Trixel trixel_at(const dvec3& u, int level, std::uint64_t* exact_calls) {
   }
   if (exact_calls != nullptr) *exact_calls += exact;
   return t;
+}
+
+Trixel trixel_at(const dvec3& u, int level, std::uint64_t* exact_calls) {
+  assert(level >= 0 && level <= kMaxLevel);
+  const auto answer = [&](const Found& found, const Goal& goal) {
+    if (found.certain == 0) return trixel_by_walk(u, level, exact_calls);
+    return Trixel{found.id >> (2 * (goal.level - level))};
+  };
+  if (level > kDeepestOfShort) {
+    const Goal goal = goal_at<kLong>(level);
+    return answer(find<kLong>(u.x, u.y, u.z, goal), goal);
+  }
+  const Goal goal = goal_at<kShort>(level);
+  return answer(find<kShort>(u.x, u.y, u.z, goal), goal);
 }
 
 }  // namespace globe::htm
