@@ -122,7 +122,7 @@ int run(Lookup lookup) {
   };
   const std::string header = std::string("lat,lon,level,id,name,diamond,i,j") + (surface ? ",height_m" : "") +
                              ",ecef_x_m,ecef_y_m,ecef_z_m,utm,mgrs";
-  return answer_records(lookup.operands, records, header, answer);
+  return answer_records(lookup.operands, records, header, answer, Threads::kAll);
 }
 
 }  // namespace
