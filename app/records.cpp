@@ -188,18 +188,29 @@ int answer_records(const std::vector<std::string>& operands, const RecordOptions
   return failed ? 1 : 0;
 }
 
-std::string number_text(double value, std::optional<int> precision) {
-  std::array<char, 400> text{};
+void append_number(std::string& text, double value, std::optional<int> precision) {
+  std::array<char, 400> digits;
   const double no_minus_zero = value + 0.0;
-  char* const first = text.data();
-  char* const last = text.data() + text.size();
+  char* const first = digits.data();
+  char* const last = digits.data() + digits.size();
   const char* end = precision
                         ? std::to_chars(first, last, no_minus_zero, std::chars_format::fixed, *precision).ptr
                         : std::to_chars(first, last, no_minus_zero).ptr;
   std::string_view shown_text(first, static_cast<std::size_t>(end - first));
   if (shown_text.starts_with('-') && shown_text.find_first_not_of("-0.") == std::string_view::npos)
     shown_text.remove_prefix(1);
-  return std::string(shown_text);
+  text += shown_text;
+}
+
+void append_integer(std::string& text, std::uint64_t value) {
+  std::array<char, 20> digits;
+  text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+}
+
+std::string number_text(double value, std::optional<int> precision) {
+  std::string text;
+  append_number(text, value, precision);
+  return text;
 }
 
 double shown(double value, std::optional<int> precision) {

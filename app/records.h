@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -39,6 +40,10 @@ int answer_records(const std::vector<std::string>& operands, const RecordOptions
 
 /// A number as text: the shortest that reads back equal, or with fixed decimals. Never "-0".
 std::string number_text(double value, std::optional<int> precision);
+
+/// The same at the end of a text.
+void append_number(std::string& text, double value, std::optional<int> precision);
+void append_integer(std::string& text, std::uint64_t value);
 
 /// The number that `number_text` shows, for JSON.
 double shown(double value, std::optional<int> precision);
