@@ -35,7 +35,8 @@
 // differs from 1 by at most h^2 / 8 (1 + h^2). Then
 //   rounding:            10 e a level and twice that with q's own                   <= 320 e < 3.6e-14
 //   series instead of roots: terms of q^3 from level kWalked - 6 on, of q^2 from kWalked - 3 on
-//                                                                         <= 0.11 * 8^-kWalked (kWalked >= 11)
+//                                                                         <= 0.11 * 8^-kWalked (kWalked >=
+//                                                                         11)
 //   l = 1 from kWalked on:   sum over n of 2/3 h_n^2 / 8 h_(n+1) = h^3 / 21, h = h_kWalked
 //                                                                         <= 0.71 * 8^-kWalked
 // The walk takes signs on rounded corners. They lie within 110 e = 1.3e-14 of the ideal ones (each midpoint
@@ -132,28 +133,38 @@ GLOBE_INLINE Sides sides(double q0, double q1, double q2) {
   }
 }
 
+/// One level down, of a descent to kWalked.
+template <int kLevel, int kWalked>
+GLOBE_INLINE Descent step_down(const Descent& d) {
+  const Sides s = sides<kLevel, kWalked>(d.q0, d.q1, d.q2);
+  const double t = d.w0 + d.w1 + d.w2;
+  const double twice0 = d.w0 + d.w0, twice1 = d.w1 + d.w1, twice2 = d.w2 + d.w2;
+  const double over0 = twice0 - t, over1 = twice1 - t, over2 = twice2 - t;
+  const std::uint64_t in0 = mask_of(over0 > 0.0), in1 = mask_of(over1 > 0.0), in2 = mask_of(over2 > 0.0);
+  const std::uint64_t middle = ~(in0 | in1 | in2);
+  const std::uint64_t own0 = in0 | middle, own1 = in1 | middle, own2 = in2 | middle;
+  const double l0 = select(in0, 1.0, select(in1, s.l2, select(in2, s.l1, s.l0)));
+  const double l1 = select(in1, 1.0, select(in2, s.l0, select(in0, s.l2, s.l1)));
+  const double l2 = select(in2, 1.0, select(in0, s.l1, select(in1, s.l0, s.l2)));
+  // in0.. are -1 where set: doubling and adding 1 is subtracting them.
+  return {select(own0, std::abs(over0), twice0) * l0,
+          select(own1, std::abs(over1), twice1) * l1,
+          select(own2, std::abs(over2), twice2) * l2,
+          select(own0, s.inner0, s.half0),
+          select(own1, s.inner1, s.half1),
+          select(own2, s.inner2, s.half2),
+          d.c0 + d.c0 - in0,
+          d.c1 + d.c1 - in1,
+          d.c2 + d.c2 - in2};
+}
+
 /// The descent from kLevel to kWalked.
 template <int kLevel, int kWalked>
 GLOBE_INLINE Descent descend(const Descent& d) {
   if constexpr (kLevel == kWalked) {
     return d;
   } else {
-    const Sides s = sides<kLevel, kWalked>(d.q0, d.q1, d.q2);
-    const double t = d.w0 + d.w1 + d.w2;
-    const double twice0 = d.w0 + d.w0, twice1 = d.w1 + d.w1, twice2 = d.w2 + d.w2;
-    const double over0 = twice0 - t, over1 = twice1 - t, over2 = twice2 - t;
-    const std::uint64_t in0 = mask_of(over0 > 0.0), in1 = mask_of(over1 > 0.0), in2 = mask_of(over2 > 0.0);
-    const std::uint64_t middle = ~(in0 | in1 | in2);
-    const std::uint64_t own0 = in0 | middle, own1 = in1 | middle, own2 = in2 | middle;
-    const double l0 = select(in0, 1.0, select(in1, s.l2, select(in2, s.l1, s.l0)));
-    const double l1 = select(in1, 1.0, select(in2, s.l0, select(in0, s.l2, s.l1)));
-    const double l2 = select(in2, 1.0, select(in0, s.l1, select(in1, s.l0, s.l2)));
-    // in0.. are -1 where set: doubling and adding 1 is subtracting them.
-    return descend<kLevel + 1, kWalked>(
-        {select(own0, std::abs(over0), twice0) * l0, select(own1, std::abs(over1), twice1) * l1,
-         select(own2, std::abs(over2), twice2) * l2, select(own0, s.inner0, s.half0),
-         select(own1, s.inner1, s.half1), select(own2, s.inner2, s.half2), d.c0 + d.c0 - in0,
-         d.c1 + d.c1 - in1, d.c2 + d.c2 - in2});
+    return descend<kLevel + 1, kWalked>(step_down<kLevel, kWalked>(d));
   }
 }
 
@@ -239,14 +250,18 @@ GLOBE_INLINE Found arrive(std::uint64_t root, const Descent& d, const Goal& goal
   return {root << (2 * goal.level) | spread(digits.low) | spread(digits.high) << 1, certain};
 }
 
-/// The trixel of a direction at the goal's level. Of directions so long or so short that weights might
-/// overflow or lose digits nothing is certain.
+/// Whether a direction is neither so long nor so short that weights might overflow or lose digits. (A mask.)
+GLOBE_INLINE std::uint64_t is_of_usual_length(const Descent& top) {
+  const double length = top.w0 + top.w1 + top.w2;
+  return mask_of(length > 0x1p-500) & mask_of(length < 0x1p500);
+}
+
+/// The trixel of a direction at the goal's level.
 template <int kWalked>
 GLOBE_INLINE Found find(double x, double y, double z, const Goal& goal) {
   const Top top = top_of(x, y, z);
-  const double length = top.descent.w0 + top.descent.w1 + top.descent.w2;
   Found found = arrive(top.root, descend<0, kWalked>(top.descent), goal);
-  found.certain &= mask_of(length > 0x1p-500) & mask_of(length < 0x1p500);
+  found.certain &= is_of_usual_length(top.descent);
   return found;
 }
 

@@ -7,6 +7,7 @@
 #include "globe/htm/descent.h"
 #include "globe/htm/midpoint.h"
 #include "globe/htm/predicates.h"
+#include "globe/htm/start_table.h"
 
 namespace globe::htm {
 namespace {
@@ -186,16 +187,18 @@ Trixel trixel_by_walk(const dvec3& u, int level, std::uint64_t* exact_calls) {
 
 Trixel trixel_at(const dvec3& u, int level, std::uint64_t* exact_calls) {
   assert(level >= 0 && level <= kMaxLevel);
-  const auto answer = [&](const Found& found, const Goal& goal) {
-    if (found.certain == 0) return trixel_by_walk(u, level, exact_calls);
-    return Trixel{found.id >> (2 * (goal.level - level))};
-  };
-  if (level > kDeepestOfShort) {
-    const Goal goal = goal_at<kLong>(level);
-    return answer(find<kLong>(u.x, u.y, u.z, goal), goal);
-  }
-  const Goal goal = goal_at<kShort>(level);
-  return answer(find<kShort>(u.x, u.y, u.z, goal), goal);
+  const Top top = top_of(u.x, u.y, u.z);
+  if (is_of_usual_length(top.descent) == 0) return trixel_by_walk(u, level, exact_calls);
+  const std::optional<Descent> start = StartTable::get().descent(top.descent);
+  if (!start) return trixel_by_walk(u, level, exact_calls);
+  const bool is_deep = level > kDeepestOfShort;
+  const Goal goal = is_deep ? goal_at<kLong>(level) : goal_at<kShort>(level);
+  const Found found = arrive(
+      top.root,
+      is_deep ? descend<StartTable::kLevel, kLong>(*start) : descend<StartTable::kLevel, kShort>(*start),
+      goal);
+  if (found.certain == 0) return trixel_by_walk(u, level, exact_calls);
+  return {found.id >> (2 * (goal.level - level))};
 }
 
 }  // namespace globe::htm
