@@ -32,7 +32,7 @@ std::size_t different(const std::vector<double>& lat_deg, const std::vector<doub
 TEST(NormalsFromDegrees, HaveTheBitsOfNormalFromDegrees) {
   std::mt19937_64 random(35);
   std::uniform_real_distribution<double> latitude(-90, 90), longitude(-400, 400);
-  for (const std::size_t count : {0, 1, 2, 7, 8, 9, 511, 512, 513, 20'000}) {
+  for (const std::size_t count : {0UL, 1UL, 2UL, 7UL, 8UL, 9UL, 511UL, 512UL, 513UL, 20'000UL}) {
     std::vector<double> lat_deg(count), lon_deg(count);
     for (std::size_t k = 0; k < count; ++k) {
       lat_deg[k] = k % 5 == 0 ? 45.0 * static_cast<double>(random() % 5) - 90.0 : latitude(random);

@@ -20,7 +20,7 @@ htm::Trixel one_by_one(double lat_deg, double lon_deg, int level) {
 TEST(TrixelsFromDegrees, AreThoseOfTheWalkOneByOne) {
   std::mt19937_64 random(71);
   std::uniform_real_distribution<double> latitude(-90, 90), longitude(-540, 540);
-  for (const std::size_t count : {0, 1, 7, 8, 513, 40'000}) {
+  for (const std::size_t count : {0UL, 1UL, 7UL, 8UL, 513UL, 40'000UL}) {
     std::vector<double> lat_deg(count), lon_deg(count);
     for (std::size_t k = 0; k < count; ++k) {
       lat_deg[k] = k % 7 == 0 ? 45.0 * static_cast<double>(random() % 5) - 90.0 : latitude(random);
