@@ -83,7 +83,7 @@ Trixel root_at(const dvec3& u);
 /// @param exact_calls  if given, grows by the number of tests that rounded arithmetic could not decide
 Trixel trixel_by_walk(const dvec3& u, int level, std::uint64_t* exact_calls = nullptr);
 
-/// The same trixel, five times as fast: found without corners, and proven to be the walk's by an error bound
+/// The same trixel, six times as fast: found without corners, and proven to be the walk's by an error bound
 /// (htm/descent.h); a direction too near a side for that takes the walk (level 20: one in 1400).
 Trixel trixel_at(const dvec3& u, int level, std::uint64_t* exact_calls = nullptr);
 
