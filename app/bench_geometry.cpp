@@ -11,8 +11,10 @@
 #include "globe/clipmap/shading_nodes.h"
 #include "globe/geo/ellipsoid.h"
 #include "globe/htm/trixel.h"
+#include "globe/planet/cell.h"
 #include "globe/planet/directions.h"
 #include "globe/planet/surface.h"
+#include "globe/planet/trixels.h"
 
 namespace app {
 namespace {
@@ -48,29 +50,75 @@ struct Sink {
   double sum = 0;
 };
 
-Benchmark id_from_degrees() {
-  return {"htm.id_from_degrees.l20", kPoints, [places = random_places(), sink = std::make_shared<Sink>()] {
-            for (const auto& place : places) {
-              const Trixel t =
-                  globe::htm::trixel_at(globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg), 20);
-              sink->sum += static_cast<double>(t.id & 1u);
-            }
+/// A benchmark of kPoints items: `work` for each of them, one by one.
+template <typename Item, typename Work>
+Benchmark one_by_one(const std::string& name, std::vector<Item> items, Work work) {
+  return {name, kPoints, [items = std::move(items), work, sink = std::make_shared<Sink>()] {
+            for (const Item& item : items) sink->sum += work(item);
           }};
+}
+
+double parity(Trixel t) { return static_cast<double>(t.id & 1U); }
+
+std::vector<Trixel> random_trixels() {
+  std::vector<Trixel> trixels;
+  for (const dvec3& u : normals_of(random_places())) trixels.push_back(globe::htm::trixel_at(u, 20));
+  return trixels;
+}
+
+Benchmark id_from_degrees() {
+  return one_by_one("htm.id_from_degrees.l20", random_places(), [](const globe::geo::Geodetic& place) {
+    return parity(globe::htm::trixel_at(globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg), 20));
+  });
 }
 
 Benchmark id_from_degrees_batch() {
+  std::vector<double> lat_deg, lon_deg;
+  for (const auto& place : random_places()) {
+    lat_deg.push_back(place.lat_deg);
+    lon_deg.push_back(place.lon_deg);
+  }
   return {"htm.id_from_degrees.l20.batch", kPoints,
-          [places = random_places(), result = std::make_shared<std::vector<Trixel>>(kPoints, Trixel{8})] {
-            globe::htm::trixels_at(normals_of(places), 20, *result);
+          [lat_deg, lon_deg, result = std::make_shared<std::vector<Trixel>>(kPoints)] {
+            planet::trixels_from_degrees(lat_deg, lon_deg, 20, *result);
           }};
 }
 
-Benchmark corners() {
-  std::vector<Trixel> trixels;
-  for (const dvec3& u : normals_of(random_places())) trixels.push_back(globe::htm::trixel_at(u, 20));
-  return {"htm.corners.l20", kPoints, [trixels, sink = std::make_shared<Sink>()] {
-            for (const Trixel& t : trixels) sink->sum += globe::htm::corners(t)[0].x;
+Benchmark id_from_vectors() {
+  return one_by_one("htm.id_from_vectors.l20", normals_of(random_places()),
+                    [](const dvec3& u) { return parity(globe::htm::trixel_at(u, 20)); });
+}
+
+Benchmark id_from_vectors_batch() {
+  return {"htm.id_from_vectors.l20.batch", kPoints,
+          [normals = normals_of(random_places()), result = std::make_shared<std::vector<Trixel>>(kPoints)] {
+            globe::htm::trixels_at(normals, 20, *result);
           }};
+}
+
+/// The definition that the fast ways are proven to agree with.
+Benchmark id_by_walk() {
+  return one_by_one("htm.id_by_walk.l20", normals_of(random_places()),
+                    [](const dvec3& u) { return parity(globe::htm::trixel_by_walk(u, 20)); });
+}
+
+Benchmark corners() {
+  return one_by_one("htm.corners.l20", random_trixels(),
+                    [](Trixel t) { return globe::htm::corners(t)[0].x; });
+}
+
+Benchmark center() {
+  return one_by_one("htm.center.l20", random_trixels(), [](Trixel t) { return globe::htm::center(t).x; });
+}
+
+Benchmark neighbors() {
+  return one_by_one("htm.neighbors.l20", random_trixels(),
+                    [](Trixel t) { return parity(globe::htm::neighbors(t)[0]); });
+}
+
+Benchmark cell() {
+  return one_by_one("planet.cell_from_trixel.l20", random_trixels(),
+                    [](Trixel t) { return double(planet::cell_from_trixel(t).i); });
 }
 
 Benchmark vertex_positions() {
@@ -141,7 +189,13 @@ Benchmark convert_bilinear() {
 std::vector<BenchmarkEntry> geometry_benchmarks() {
   return {{"htm.id_from_degrees.l20", id_from_degrees},
           {"htm.id_from_degrees.l20.batch", id_from_degrees_batch},
+          {"htm.id_from_vectors.l20", id_from_vectors},
+          {"htm.id_from_vectors.l20.batch", id_from_vectors_batch},
+          {"htm.id_by_walk.l20", id_by_walk},
           {"htm.corners.l20", corners},
+          {"htm.center.l20", center},
+          {"htm.neighbors.l20", neighbors},
+          {"planet.cell_from_trixel.l20", cell},
           {"planet.directions.tile", vertex_positions},
           {"planet.ground_tile.l12", [] { return ground_tile(12); }},
           {"planet.ground_tile.l22", [] { return ground_tile(22); }},

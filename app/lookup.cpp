@@ -65,12 +65,17 @@ GridNames grid_names(const Point& point, const globe::geo::Ellipsoid& ellipsoid)
 }
 
 std::string text_line(const Place& place, const std::optional<int>& precision) {
+  std::string line;
+  line.reserve(128);
   const auto& [d, level, i, j, half] = place.cell;
-  std::string line = number_text(place.lat_deg, precision) + ' ' + number_text(place.lon_deg, precision) +
-                     ' ' + std::to_string(level) + ' ' + std::to_string(place.trixel.id) + ' ' +
-                     globe::htm::name(place.trixel);
-  for (const int number : {d, i, j}) line += ' ' + std::to_string(number);
-  if (place.height_m) line += ' ' + number_text(*place.height_m, precision);
+  append_number(line, place.lat_deg, precision);
+  append_number(line += ' ', place.lon_deg, precision);
+  append_integer(line += ' ', static_cast<std::uint64_t>(level));
+  append_integer(line += ' ', place.trixel.id);
+  line += ' ';
+  line += globe::htm::name(place.trixel);
+  for (const int number : {d, i, j}) append_integer(line += ' ', static_cast<std::uint64_t>(number));
+  if (place.height_m) append_number(line += ' ', *place.height_m, precision);
   return line;
 }
 
@@ -122,7 +127,7 @@ int run(Lookup lookup) {
   };
   const std::string header = std::string("lat,lon,level,id,name,diamond,i,j") + (surface ? ",height_m" : "") +
                              ",ecef_x_m,ecef_y_m,ecef_z_m,utm,mgrs";
-  return answer_records(lookup.operands, records, header, answer);
+  return answer_records(lookup.operands, records, header, answer, Threads::kAll);
 }
 
 }  // namespace

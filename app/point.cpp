@@ -206,6 +206,10 @@ Point parse_point(std::string_view text) {
     words.pop_back();
   }
   try {
+    if (words.size() == 2) {  // by far the most common, and no other notation is two plain numbers
+      const auto lat = plain_number(words[0]), lon = plain_number(words[1]);
+      if (lat && lon) return checked(*lat, *lon);
+    }
     if (const auto mgrs = mgrs_of(words)) return point_from_mgrs(*mgrs);
     if (words.size() == 3 && is_zone(words[0]) && plain_number(words[1]) && plain_number(words[2]))
       return point_from_utm(words);

@@ -1,5 +1,6 @@
 #include "app/records.h"
 
+#include <oneapi/tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,7 +11,9 @@
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string_view>
+#include <utility>
 
 #include "globe/base/error.h"
 
@@ -19,31 +22,43 @@ namespace {
 
 constexpr std::size_t kLongestRecord = 65536;
 
-/// Lines of standard input. Before it waits for more it flushes standard output.
+/// Lines of standard input, as many as are at hand. Before it waits for more it flushes standard output.
 class LineReader {
  public:
-  /// False at the end. Of a line longer than kLongestRecord only the beginning is kept, one byte too many.
-  bool next(std::string& line) {
-    line.clear();
-    bool any = false;
+  /// The lines that have come in, at least one; none at the end. Of a line longer than kLongestRecord only
+  /// the beginning is kept, one byte too many.
+  std::vector<std::string> next() {
+    std::vector<std::string> lines;
     for (;;) {
-      if (begin_ == end_ && !fill()) break;
-      any = true;
-      const char* start = buffer_.data() + begin_;
-      const auto* newline = static_cast<const char*>(std::memchr(start, '\n', end_ - begin_));
-      const std::size_t length =
-          newline == nullptr ? end_ - begin_ : static_cast<std::size_t>(newline - start);
-      line.append(start, std::min(length, kLongestRecord + 1 - line.size()));
-      begin_ += length;
-      if (newline == nullptr) continue;
-      ++begin_;
-      break;
+      while (take_line()) lines.push_back(std::exchange(line_, {}));
+      if (!lines.empty()) return lines;
+      if (!fill()) break;
     }
-    if (line.ends_with('\r')) line.pop_back();
-    return any;
+    if (std::exchange(in_line_, false)) lines.push_back(without_return(std::exchange(line_, {})));
+    return lines;
   }
 
  private:
+  /// Moves bytes to the line up to its end; false when the buffer ends first.
+  bool take_line() {
+    if (begin_ == end_) return false;
+    const char* start = buffer_.data() + begin_;
+    const auto* newline = static_cast<const char*>(std::memchr(start, '\n', end_ - begin_));
+    const std::size_t length = newline == nullptr ? end_ - begin_ : static_cast<std::size_t>(newline - start);
+    line_.append(start, std::min(length, kLongestRecord + 1 - line_.size()));
+    begin_ += length;
+    in_line_ = newline == nullptr;
+    if (in_line_) return false;
+    ++begin_;
+    line_ = without_return(std::move(line_));
+    return true;
+  }
+
+  static std::string without_return(std::string line) {
+    if (line.ends_with('\r')) line.pop_back();
+    return line;
+  }
+
   bool fill() {
     std::fflush(stdout);
     ssize_t got = 0;
@@ -56,8 +71,10 @@ class LineReader {
     return got > 0;
   }
 
-  std::array<char, 65536> buffer_{};
+  std::vector<char> buffer_ = std::vector<char>(std::size_t{1} << 18);
   std::size_t begin_ = 0, end_ = 0;
+  std::string line_;  ///< what has come in of a line that goes on
+  bool in_line_ = false;
 };
 
 std::string error_line(std::size_t line, std::string reason, const RecordOptions& options) {
@@ -74,14 +91,69 @@ std::string error_line(std::size_t line, std::string reason, const RecordOptions
   return "\"ERROR: " + doubled + "\"";
 }
 
-void write_line(const std::string& line) {
-  std::fwrite(line.data(), 1, line.size(), stdout);
-  std::putchar('\n');
-}
-
 bool is_comment(const std::string& line) {
   const std::size_t first = line.find_first_not_of(" \t");
   return first == std::string::npos || line[first] == '#';
+}
+
+/// The answers to some records that follow each other, newlines included.
+struct Part {
+  std::string text;
+  bool failed = false;  ///< a record was bad; with --strict nothing comes after it
+};
+
+using Answer = std::function<std::string(const std::string&)>;
+
+/// @param number  that of the first record, from 1
+Part answer_part(std::span<const std::string> records, std::size_t number, bool with_comments,
+                 const RecordOptions& options, const Answer& answer) {
+  Part part;
+  for (const std::string& record : records) {
+    const std::size_t line = number++;
+    if (with_comments && is_comment(record)) {
+      if (!options.json && !options.csv) part.text += record + '\n';
+      continue;
+    }
+    try {
+      if (record.size() > kLongestRecord)
+        throw globe::Error("record", "is too long", "write one record a line");
+      part.text += answer(record);
+    } catch (const globe::Error& error) {
+      part.text += error_line(line, error.what(), options);
+      part.failed = true;
+    }
+    part.text += '\n';
+    if (part.failed && options.strict) break;
+  }
+  return part;
+}
+
+/// Answers records in parts, on all threads if `threads` says so, and writes them in order. Returns whether
+/// one failed.
+bool write_answers(std::span<const std::string> records, std::size_t number, bool with_comments,
+                   const RecordOptions& options, const Answer& answer, Threads threads) {
+  constexpr std::size_t kPart = 64;
+  std::vector<Part> parts((records.size() + kPart - 1) / kPart);
+  const auto answer_one = [&](std::size_t k) {
+    const std::size_t first = k * kPart;
+    parts[k] = answer_part(records.subspan(first, std::min(kPart, records.size() - first)), number + first,
+                           with_comments, options, answer);
+  };
+  if (threads == Threads::kAll && parts.size() > 1) {
+    oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), answer_one);
+  } else {
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      answer_one(k);
+      if (parts[k].failed && options.strict) break;
+    }
+  }
+  bool failed = false;
+  for (const Part& part : parts) {
+    std::fwrite(part.text.data(), 1, part.text.size(), stdout);
+    failed = failed || part.failed;
+    if (failed && options.strict) break;
+  }
+  return failed;
 }
 
 }  // namespace
@@ -97,53 +169,48 @@ void add_record_options(CLI::App& command, RecordOptions& options) {
 
 int answer_records(const std::vector<std::string>& operands, const RecordOptions& options,
                    const std::string& csv_header,
-                   const std::function<std::string(const std::string&)>& answer) {
-  int status = 0;
-  const auto write_answer = [&](const std::string& record, std::size_t line) {
-    try {
-      if (record.size() > kLongestRecord)
-        throw globe::Error("record", "is too long", "write one record a line");
-      write_line(answer(record));
-    } catch (const globe::Error& error) {
-      write_line(error_line(line, error.what(), options));
-      status = 1;
-    }
-    return status == 0 || !options.strict;
-  };
-  if (options.csv) write_line(csv_header);
+                   const std::function<std::string(const std::string&)>& answer, Threads threads) {
+  bool failed = false;
+  if (options.csv) std::fputs((csv_header + '\n').c_str(), stdout);
   if (!operands.empty()) {
-    std::size_t number = 0;
-    for (const std::string& operand : operands) {
-      if (!write_answer(operand, ++number)) break;
-    }
+    failed = write_answers(operands, 1, false, options, answer, threads);
   } else {
     LineReader reader;
-    std::string line;
-    for (std::size_t number = 1; reader.next(line); ++number) {
-      if (is_comment(line)) {
-        if (!options.json && !options.csv) write_line(line);
-      } else if (!write_answer(line, number)) {
-        break;
-      }
+    std::size_t number = 1;
+    for (std::vector<std::string> lines = reader.next(); !lines.empty(); lines = reader.next()) {
+      failed = write_answers(lines, number, true, options, answer, threads) || failed;
+      if (failed && options.strict) break;
+      number += lines.size();
     }
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     throw globe::Error("standard output", "could not be written", "check that the disk is not full");
-  return status;
+  return failed ? 1 : 0;
 }
 
-std::string number_text(double value, std::optional<int> precision) {
-  std::array<char, 400> text{};
+void append_number(std::string& text, double value, std::optional<int> precision) {
+  std::array<char, 400> digits;
   const double no_minus_zero = value + 0.0;
-  char* const first = text.data();
-  char* const last = text.data() + text.size();
+  char* const first = digits.data();
+  char* const last = digits.data() + digits.size();
   const char* end = precision
                         ? std::to_chars(first, last, no_minus_zero, std::chars_format::fixed, *precision).ptr
                         : std::to_chars(first, last, no_minus_zero).ptr;
   std::string_view shown_text(first, static_cast<std::size_t>(end - first));
   if (shown_text.starts_with('-') && shown_text.find_first_not_of("-0.") == std::string_view::npos)
     shown_text.remove_prefix(1);
-  return std::string(shown_text);
+  text += shown_text;
+}
+
+void append_integer(std::string& text, std::uint64_t value) {
+  std::array<char, 20> digits;
+  text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+}
+
+std::string number_text(double value, std::optional<int> precision) {
+  std::string text;
+  append_number(text, value, precision);
+  return text;
 }
 
 double shown(double value, std::optional<int> precision) {

@@ -2,7 +2,6 @@
 
 #include <GeographicLib/Geocentric.hpp>
 #include <GeographicLib/Math.hpp>
-#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
@@ -10,23 +9,6 @@
 #include "globe/base/error.h"
 
 namespace globe::geo {
-namespace {
-
-/// Removes the sign of a zero, so that equal points have equal bits.
-double positive_zero(double x) { return x + 0.0; }
-
-/// Sine and cosine of degrees. At 45 degrees and its odd multiples both have the same magnitude, that of the
-/// coordinates of htm::midpoint of two axes, so that these latitudes and longitudes land on HTM's vertices.
-void sine_cosine(double angle_deg, double& sine, double& cosine) {
-  GeographicLib::Math::sincosd(angle_deg, sine, cosine);
-  if (std::abs(std::remainder(angle_deg, 90.0)) == 45.0) {
-    const double half_diagonal = 1.0 / std::sqrt(2.0);
-    sine = std::copysign(half_diagonal, sine);
-    cosine = std::copysign(half_diagonal, cosine);
-  }
-}
-
-}  // namespace
 
 Ellipsoid make_ellipsoid(double a, double f) {
   if (!(std::isfinite(a) && a > 0.0)) {
@@ -38,14 +20,6 @@ Ellipsoid make_ellipsoid(double a, double f) {
                      "give A,F such as 6378137,1/298.257");
   }
   return {a, f};
-}
-
-dvec3 normal_from_degrees(double lat_deg, double lon_deg) {
-  assert(std::abs(lat_deg) <= 90.0 && std::isfinite(lon_deg));
-  double sin_lat = 0, cos_lat = 0, sin_lon = 0, cos_lon = 0;
-  sine_cosine(lat_deg, sin_lat, cos_lat);
-  sine_cosine(lon_deg, sin_lon, cos_lon);
-  return {positive_zero(cos_lat * cos_lon), positive_zero(cos_lat * sin_lon), positive_zero(sin_lat)};
 }
 
 Geodetic degrees_from_normal(const dvec3& u) {

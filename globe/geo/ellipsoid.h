@@ -41,7 +41,8 @@ Ellipsoid make_ellipsoid(double a, double f);
 ///
 /// The angles are folded in degrees first, which is exact, so that longitudes 0, 90, 180, 270 and the poles
 /// land exactly on the axes, and 45 degrees on HTM's vertices of level 1; signed zeros are made positive.
-/// Latitudes outside [-90, 90] and NaN: asserted against.
+/// Latitudes outside [-90, 90] and NaN: asserted against. The same bits on every machine (geo/sine_cosine.h);
+/// for many at once see geo/normals.h.
 dvec3 normal_from_degrees(double lat_deg, double lon_deg);
 
 /// Latitude and longitude in degrees ([-180, 180)) of a direction of any length; h_m is 0.

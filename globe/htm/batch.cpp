@@ -1,86 +1,105 @@
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
 
+#include "globe/base/parallel_blocks.h"
 #include "globe/base/vector_width.h"
-#include "globe/htm/midpoint.h"
-#include "globe/htm/predicates.h"
+#include "globe/htm/descent.h"
 #include "globe/htm/trixel.h"
 
 namespace globe::htm {
 namespace {
 
-constexpr std::size_t kLanes = 8;
+constexpr std::size_t kBlock = 512;
 
-struct Lane3 {
-  std::array<double, kLanes> x, y, z;
+struct Answers {
+  std::array<std::uint64_t, kBlock> id, certain;
+};
 
-  dvec3 get(std::size_t k) const { return {x[k], y[k], z[k]}; }
-  void set(std::size_t k, const dvec3& v) {
-    x[k] = v.x;
-    y[k] = v.y;
-    z[k] = v.z;
+GLOBE_FOR_EVERY_VECTOR_WIDTH void find_short(const double* __restrict x, const double* __restrict y,
+                                             const double* __restrict z, std::size_t count, const Goal& goal,
+                                             Answers& __restrict answers) {
+  const Goal same = goal;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Found found = find<kShort>(x[k], y[k], z[k], same);
+    answers.id[k] = found.id;
+    answers.certain[k] = found.certain;
   }
-};
-
-/// Eight walks side by side.
-struct Walks {
-  Lane3 u, c0, c1, c2;
-  std::array<std::uint64_t, kLanes> id;
-  std::array<std::uint64_t, kLanes> doubtful;  ///< 1 when a sign could not be told
-};
-
-inline dvec3 select(bool first, const dvec3& a, const dvec3& b) {
-  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }
 
-/// `level` steps of trixel_at for each lane, with selections in place of branches so that it compiles to
-/// vectors.
-GLOBE_FOR_EVERY_VECTOR_WIDTH void walk(Walks& w, int level) {
-  for (int step = 0; step < level; ++step) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const dvec3 u = w.u.get(k), c0 = w.c0.get(k), c1 = w.c1.get(k), c2 = w.c2.get(k);
-      const dvec3 m01 = midpoint(c0, c1), m12 = midpoint(c1, c2), m20 = midpoint(c2, c0);
-      const Determinant d0 = rounded_determinant(m01, m20, u);
-      const Determinant d1 = rounded_determinant(m12, m01, u);
-      const Determinant d2 = rounded_determinant(m20, m12, u);
-      const bool in0 = d0.value > 0.0, in1 = d1.value > 0.0, in2 = d2.value > 0.0;
-      w.doubtful[k] |= static_cast<std::uint64_t>(std::abs(d0.value) <= d0.error) |
-                       static_cast<std::uint64_t>(std::abs(d1.value) <= d1.error) |
-                       static_cast<std::uint64_t>(std::abs(d2.value) <= d2.error);
-      w.id[k] = w.id[k] << 2 | (in0 ? 0U : in1 ? 1U : in2 ? 2U : 3U);
-      w.c0.set(k, select(in0, c0, select(in1, c1, select(in2, c2, m12))));
-      w.c1.set(k, select(in0, m01, select(in1, m12, m20)));
-      w.c2.set(k, select(in0, m20, select(in1, m01, select(in2, m12, m01))));
+GLOBE_FOR_EVERY_VECTOR_WIDTH void find_long(const double* __restrict x, const double* __restrict y,
+                                            const double* __restrict z, std::size_t count, const Goal& goal,
+                                            Answers& __restrict answers) {
+  const Goal same = goal;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Found found = find<kLong>(x[k], y[k], z[k], same);
+    answers.id[k] = found.id;
+    answers.certain[k] = found.certain;
+  }
+}
+
+/// A part of `trixels_at`: at most kBlock directions. Returns how many took the walk.
+std::size_t find_block(const DirectionArrays& u, int level, std::span<Trixel> result,
+                       std::uint64_t& exact_calls) {
+  Answers answers;
+  const bool is_deep = level > kDeepestOfShort;
+  const Goal goal = is_deep ? goal_at<kLong>(level) : goal_at<kShort>(level);
+  (is_deep ? find_long : find_short)(u.x.data(), u.y.data(), u.z.data(), result.size(), goal, answers);
+  std::size_t walked = 0;
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    if (answers.certain[k] != 0) {
+      result[k] = {answers.id[k] >> (2 * (goal.level - level))};
+    } else {
+      ++walked;
+      result[k] = trixel_by_walk({u.x[k], u.y[k], u.z[k]}, level, &exact_calls);
     }
   }
+  return walked;
+}
+
+/// Blocks on all threads. @param directions  first and count to the DirectionArrays of that part
+template <typename Directions>
+std::size_t find_all(int level, std::span<Trixel> result, std::uint64_t* exact_calls,
+                     const Directions& directions) {
+  assert(level >= 0 && level <= kMaxLevel);
+  std::atomic<std::uint64_t> exact{0};
+  std::atomic<std::size_t> walked{0};
+  for_each_block(result.size(), kBlock, [&](std::size_t first, std::size_t count) {
+    std::uint64_t exact_here = 0;
+    directions(first, count, [&](const DirectionArrays& u) {
+      walked += find_block(u, level, result.subspan(first, count), exact_here);
+    });
+    if (exact_here != 0) exact += exact_here;
+  });
+  if (exact_calls != nullptr) *exact_calls += exact;
+  return walked;
 }
 
 }  // namespace
 
-void trixels_at(std::span<const dvec3> directions, int level, std::span<Trixel> result,
-                std::uint64_t* exact_calls) {
-  assert(result.size() == directions.size() && level >= 0 && level <= kMaxLevel);
-  std::size_t first = 0;
-  for (; first + kLanes <= directions.size(); first += kLanes) {
-    Walks w;
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const Trixel root = root_at(directions[first + k]);
-      const Corners corners = htm::corners(root);
-      w.u.set(k, directions[first + k]);
-      w.c0.set(k, corners[0]);
-      w.c1.set(k, corners[1]);
-      w.c2.set(k, corners[2]);
-      w.id[k] = root.id;
-      w.doubtful[k] = 0;
+std::size_t trixels_at(const DirectionArrays& u, int level, std::span<Trixel> result,
+                       std::uint64_t* exact_calls) {
+  assert(u.x.size() == result.size() && u.y.size() == result.size() && u.z.size() == result.size());
+  return find_all(level, result, exact_calls, [&](std::size_t first, std::size_t count, const auto& find) {
+    find({u.x.subspan(first, count), u.y.subspan(first, count), u.z.subspan(first, count)});
+  });
+}
+
+std::size_t trixels_at(std::span<const dvec3> directions, int level, std::span<Trixel> result,
+                       std::uint64_t* exact_calls) {
+  assert(directions.size() == result.size());
+  return find_all(level, result, exact_calls, [&](std::size_t first, std::size_t count, const auto& find) {
+    std::array<double, kBlock> x, y, z;
+    for (std::size_t k = 0; k < count; ++k) {
+      x[k] = directions[first + k].x;
+      y[k] = directions[first + k].y;
+      z[k] = directions[first + k].z;
     }
-    walk(w, level);
-    for (std::size_t k = 0; k < kLanes; ++k)
-      result[first + k] =
-          w.doubtful[k] == 0 ? Trixel{w.id[k]} : trixel_at(directions[first + k], level, exact_calls);
-  }
-  for (; first < directions.size(); ++first) result[first] = trixel_at(directions[first], level, exact_calls);
+    find({{x.data(), count}, {y.data(), count}, {z.data(), count}});
+  });
 }
 
 }  // namespace globe::htm

@@ -4,8 +4,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "globe/htm/descent.h"
 #include "globe/htm/midpoint.h"
 #include "globe/htm/predicates.h"
+#include "globe/htm/start_table.h"
 
 namespace globe::htm {
 namespace {
@@ -49,20 +51,24 @@ constexpr auto kAcrossRootEdges = [] {
 
 Trixel child_of(Trixel t, std::size_t k) { return {t.id << 2 | k}; }
 
-/// What lies across the three edges of child k of t, from what lies across those of t.
-std::array<Across, 3> across_child_edges(Trixel t, const std::array<Across, 3>& across, std::size_t k) {
-  if (k == 3) return {Across{child_of(t, 0), 0}, Across{child_of(t, 1), 0}, Across{child_of(t, 2), 0}};
-  // Edges 1 and 2 of child k are halves of edges k + 1 and k + 2 of t. The two trixels beside an edge run
-  // along it in opposite directions, which tells the corner that the halves share.
-  const Across& a = across[next(k)];
-  const Across& b = across[previous(k)];
-  return {Across{child_of(t, 3), k}, Across{child_of(a.trixel, next(a.edge)), 2},
-          Across{child_of(b.trixel, previous(b.edge)), 1}};
-}
-
 std::size_t digit(Trixel t, int levels_below) { return t.id >> (2 * levels_below) & 3; }
 
 std::size_t root_index(Trixel t, int depth) { return t.id >> (2 * depth) & 7; }
+
+/// What lies across one edge: at once inside the parent, else a half of what lies across an edge of the
+/// parent. Every level up is half as likely as the one before.
+Across across_edge(Trixel t, int depth, std::size_t edge) {
+  if (depth == 0) return kAcrossRootEdges[root_index(t, 0)][edge];
+  const Trixel above{t.id >> 2};
+  const std::size_t k = digit(t, 0);
+  if (k == 3) return {child_of(above, edge), 0};
+  if (edge == 0) return {child_of(above, 3), k};
+  // Edges 1 and 2 of child k are halves of edges k + 1 and k + 2 of its parent. The two trixels beside an
+  // edge run along it in opposite directions, which tells the corner that the halves share.
+  const Across beyond = across_edge(above, depth - 1, edge == 1 ? next(k) : previous(k));
+  if (edge == 1) return {child_of(beyond.trixel, next(beyond.edge)), 2};
+  return {child_of(beyond.trixel, previous(beyond.edge)), 1};
+}
 
 Corners root_corners(std::size_t root) {
   const auto vertex = [&](std::size_t k) {
@@ -114,10 +120,7 @@ Trixel child(Trixel t, int k) {
 
 std::array<Trixel, 3> neighbors(Trixel t) {
   const int depth = level(t);
-  auto across = kAcrossRootEdges[root_index(t, depth)];
-  for (int below = depth - 1; below >= 0; --below)
-    across = across_child_edges(Trixel{t.id >> (2 * below + 2)}, across, digit(t, below));
-  return {across[0].trixel, across[1].trixel, across[2].trixel};
+  return {across_edge(t, depth, 0).trixel, across_edge(t, depth, 1).trixel, across_edge(t, depth, 2).trixel};
 }
 
 Corners child_corners(const Corners& c, int k) {
@@ -155,7 +158,7 @@ Trixel root_at(const dvec3& u) {
   return {u.z >= 0.0 ? kFirstRoot + 7 - octant : kFirstRoot + octant};
 }
 
-Trixel trixel_at(const dvec3& u, int level, std::uint64_t* exact_calls) {
+Trixel trixel_by_walk(const dvec3& u, int level, std::uint64_t* exact_calls) {
   assert(level >= 0 && level <= kMaxLevel);
   assert(std::isfinite(u.x) && std::isfinite(u.y) && std::isfinite(u.z));
   std::uint64_t exact = 0;
@@ -188,6 +191,22 @@ Trixel trixel_at(const dvec3& u, int level, std::uint64_t* exact_calls) {
   }
   if (exact_calls != nullptr) *exact_calls += exact;
   return t;
+}
+
+Trixel trixel_at(const dvec3& u, int level, std::uint64_t* exact_calls) {
+  assert(level >= 0 && level <= kMaxLevel);
+  const Top top = top_of(u.x, u.y, u.z);
+  if (is_of_usual_length(top.descent) == 0) return trixel_by_walk(u, level, exact_calls);
+  const std::optional<Descent> start = StartTable::get().descent(top.descent);
+  if (!start) return trixel_by_walk(u, level, exact_calls);
+  const bool is_deep = level > kDeepestOfShort;
+  const Goal goal = is_deep ? goal_at<kLong>(level) : goal_at<kShort>(level);
+  const Found found = arrive(
+      top.root,
+      is_deep ? descend<StartTable::kLevel, kLong>(*start) : descend<StartTable::kLevel, kShort>(*start),
+      goal);
+  if (found.certain == 0) return trixel_by_walk(u, level, exact_calls);
+  return {found.id >> (2 * (goal.level - level))};
 }
 
 }  // namespace globe::htm

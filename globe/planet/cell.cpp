@@ -1,31 +1,36 @@
 #include "globe/planet/cell.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdint>
-#include <glm/vec2.hpp>
 
 #include "globe/planet/grid.h"
 
 namespace globe::planet {
 namespace {
 
-using IntCorners = std::array<ivec2, 3>;
+/// What share of each corner of its root a trixel holds, in cells and rounded down: the binary digits that
+/// htm/descent.h makes ids of. Their sum is n - 1 the way up that the root has, n - 2 upside down.
+struct Shares {
+  std::array<std::uint32_t, 3> of_corner;
+  bool upside_down;
+};
 
-/// Grid corners of the level-0 trixels, in the order of their HTM corners: S(d) is west, south pole, east;
-/// N(3 - d) is east, north pole, west.
-IntCorners root_corners(bool north, int n) {
-  const ivec2 west{n, 0};
-  const ivec2 east{0, n};
-  if (north) return {east, {0, 0}, west};
-  return {west, {n, n}, east};
-}
-
-IntCorners child_corners(const IntCorners& c, std::size_t k) {
-  const auto half = [&](std::size_t a, std::size_t b) { return (c[a % 3] + c[b % 3]) / 2; };
-  if (k == 3) return {half(1, 2), half(2, 0), half(0, 1)};
-  return {c[k], half(k, k + 1), half(k + 2, k)};
+Shares shares_of(htm::Trixel trixel, int level) {
+  constexpr std::array<std::array<std::uint32_t, 4>, 3> kLabelAfter{
+      {{0, 1, 2, 0}, {1, 2, 0, 1}, {2, 0, 1, 2}}};
+  Shares shares{};
+  std::uint32_t label = 0, flip = 0;
+  for (int below = level - 1; below >= 0; --below) {
+    const std::size_t digit = trixel.id >> (2 * below) & 3;
+    const std::uint32_t corner_child = digit != 3;
+    label = kLabelAfter[label][digit];
+    for (std::uint32_t k = 0; k < 3; ++k)
+      shares.of_corner[k] = shares.of_corner[k] << 1 | (((k == label) & corner_child) ^ flip);
+    flip ^= 1 ^ corner_child;
+  }
+  shares.upside_down = flip != 0;
+  return shares;
 }
 
 }  // namespace
@@ -34,12 +39,12 @@ Cell cell_from_trixel(htm::Trixel trixel) {
   const int level = htm::level(trixel);
   const auto root = static_cast<int>(trixel.id >> (2 * level)) - static_cast<int>(htm::kFirstRoot);
   const bool north = root >= kDiamonds;
-  IntCorners c = root_corners(north, nodes_per_side(level));
-  for (int below = level - 1; below >= 0; --below) c = child_corners(c, trixel.id >> (2 * below) & 3);
-  const int i = std::min({c[0].x, c[1].x, c[2].x});
-  const int j = std::min({c[0].y, c[1].y, c[2].y});
-  const bool holds_ij = std::find(c.begin(), c.end(), ivec2{i, j}) != c.end();
-  return {north ? 7 - root : root, level, i, j, holds_ij ? 0 : 1};
+  const Shares shares = shares_of(trixel, level);
+  // N(3 - d) is east, north pole, west; S(d) is west, south pole, east (grid corners (0, n) and (n, 0)).
+  const auto first = static_cast<int>(shares.of_corner[0]), last = static_cast<int>(shares.of_corner[2]);
+  if (north) return {7 - root, level, last, first, shares.upside_down ? 1 : 0};
+  const int n = nodes_per_side(level);
+  return {root, level, n - 1 - last, n - 1 - first, shares.upside_down ? 0 : 1};
 }
 
 htm::Trixel trixel_from_cell(const Cell& cell) {

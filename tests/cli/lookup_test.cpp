@@ -197,6 +197,44 @@ TEST(Lookup, KeepsOneLineARecordWhateverBytesComeIn) {
   EXPECT_EQ(run_program({"lookup", "1\n2\n3\n4\n5"}).lines().size(), 1u);
 }
 
+/// 30,000 records, more than are read at once; those that `is_bad` picks are none.
+template <typename IsBad>
+std::string many_records(IsBad is_bad) {
+  std::string text;
+  for (int k = 0; k < 30'000; ++k) {
+    const std::string bad = k % 2 == 0 ? "\x01\xff\xfe rubbish" : "91 0";
+    text += (is_bad(k) ? bad : std::to_string(k % 90) + ' ' + std::to_string(k % 180)) + '\n';
+  }
+  return text;
+}
+
+TEST(Lookup, KeepsOrderAndLineNumbersWhateverThreadAnswers) {
+  const auto is_bad = [](int k) { return k % 997 == 5; };
+  const Outcome run = run_program({"lookup", "--json"}, many_records(is_bad));
+  EXPECT_EQ(run.status, 1);
+  const auto lines = run.lines();
+  ASSERT_EQ(lines.size(), 30'000u);
+  for (int k = 0; k < 30'000; ++k) {
+    const json answer = json::parse(lines[static_cast<std::size_t>(k)]);
+    if (is_bad(k)) {
+      ASSERT_EQ(answer["line"], k + 1);
+    } else {
+      ASSERT_EQ(answer["lat"], k % 90);
+      ASSERT_EQ(answer["lon"], k % 180);
+    }
+  }
+}
+
+TEST(Lookup, StopsAtTheFirstBadOfManyWithStrict) {
+  const Outcome run = run_program({"lookup", "--strict", "--level", "3"},
+                                  many_records([](int k) { return k > 20'000 && k % 3 == 0; }));
+  EXPECT_EQ(run.status, 1);
+  const auto lines = run.lines();
+  ASSERT_EQ(lines.size(), 20'002u);
+  EXPECT_EQ(lines.back().substr(0, 6), "ERROR:");
+  EXPECT_EQ(lines[20'000].substr(0, 6), "20 20 ");
+}
+
 TEST(Lookup, MakesATable) {
   const Outcome run = run_program({"lookup", "--csv", "1 2", "x\"y"});
   const auto lines = run.lines();

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "globe/geo/ellipsoid.h"
+#include "tests/hard/quad.h"
 #include "tests/hard/table.h"
 
 namespace {
@@ -18,52 +19,17 @@ using globe::geo::dvec3;
 using globe::geo::Ellipsoid;
 using globe::geo::Geodetic;
 
-__extension__ using quad = __float128;
+using hard::quad;
+using hard::square_root;
 
 constexpr double kNanometre = 1e-9;
 constexpr double kEcefError = 10 * kNanometre;
 constexpr double kFarUlps = 4;
 
-struct SineCosine {
-  quad sine, cosine;
-};
-
-/// By Taylor series of the angle folded to [-45, 45] degrees, 30 digits.
-SineCosine sine_cosine(double angle_deg) {
-  const double folded = std::remainder(angle_deg, 90.0);
-  const int quarter = static_cast<int>(std::lround((std::remainder(angle_deg, 360.0) - folded) / 90.0)) & 3;
-  // pi to 33 digits as a sum of three doubles.
-  const quad pi = static_cast<quad>(3.141592653589793116) + static_cast<quad>(1.224646799147353207e-16) -
-                  static_cast<quad>(2.994769809718339666e-33);
-  const quad x = static_cast<quad>(folded) * pi / 180;
-  quad sine = 0, cosine = 0, term = 1;
-  for (int k = 0; k < 40; ++k) {
-    const quad signed_term = k % 4 < 2 ? term : -term;
-    (k % 2 == 0 ? cosine : sine) += signed_term;
-    term *= x / (k + 1);
-  }
-  switch (quarter) {
-    case 0:
-      return {sine, cosine};
-    case 1:
-      return {cosine, -sine};
-    case 2:
-      return {-sine, -cosine};
-    default:
-      return {-cosine, sine};
-  }
-}
-
-quad square_root(quad x) {
-  quad root = std::sqrt(static_cast<double>(x));
-  for (int step = 0; step < 2; ++step) root = (root + x / root) / 2;
-  return root;
-}
-
 /// Distance in metres between a point and the quadruple value of geodetic coordinates.
 double distance_m(const Ellipsoid& e, const dvec3& point, const Geodetic& g) {
-  const auto [sin_lat, cos_lat] = sine_cosine(g.lat_deg);
-  const auto [sin_lon, cos_lon] = sine_cosine(g.lon_deg);
+  const auto [sin_lat, cos_lat] = hard::quad_sine_cosine(g.lat_deg);
+  const auto [sin_lon, cos_lon] = hard::quad_sine_cosine(g.lon_deg);
   const quad f = e.f;
   const quad e2 = f * (2 - f);
   const quad n = e.a / square_root(1 - e2 * sin_lat * sin_lat);

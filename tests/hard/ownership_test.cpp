@@ -137,7 +137,7 @@ TEST(H5, PointsOnDeepVerticesAndEdgesHaveTheOneOwnerThatExactSignsName) {
   EXPECT_EQ(wrong, 0u);
 }
 
-TEST(H5, OneByOneAndEightAtATimeAgree) {
+TEST(H5, OneByOneAndInVectorsAgree) {
   auto points = with_surroundings(special_points());
   std::mt19937_64 random(56);
   const std::size_t count = hard::cases(1'000'000);
@@ -148,9 +148,9 @@ TEST(H5, OneByOneAndEightAtATimeAgree) {
     globe::htm::trixels_at(points, level, together);
     for (std::size_t k = 0; k < points.size(); ++k) different += together[k] != trixel_at(points[k], level);
   }
-  hard::report(
-      "H5", "one by one and eight at a time differ, " + std::to_string(points.size()) + " points, 5 levels",
-      "0", std::to_string(different));
+  hard::report("H5",
+               "one by one and in vectors differ, " + std::to_string(points.size()) + " points, 5 levels",
+               "0", std::to_string(different));
   EXPECT_EQ(different, 0u);
 }
 
@@ -251,7 +251,7 @@ TEST(H5, OrdinaryLookupsNeedNoExactArithmetic) {
     const double rate = static_cast<double>(exact_calls) / static_cast<double>(count);
     hard::report("H5",
                  "exact tests per lookup, level " + std::to_string(level) + ", " + std::to_string(count) +
-                     " random points (" + one_by_one + " one by one, " + together + " eight at a time)",
+                     " random points (" + one_by_one + " one by one, " + together + " in vectors)",
                  level == 20 ? "< 1e-6" : "-", hard::figure(rate));
     if (level == 20) {
       EXPECT_LT(rate, 1e-6);
