@@ -39,9 +39,11 @@ Interval median_interval(std::vector<double> values);
 /// Runs all of them once a round, one after the other, so that what else the machine does falls on all alike.
 std::vector<BenchmarkResult> run_interleaved(std::vector<Benchmark>& benchmarks, int rounds);
 
-/// What `globe bench` knows (app/bench_geometry.cpp, app/bench_cover.cpp, app/bench_flight.cpp).
+/// What `globe bench` knows (app/bench_geometry.cpp, app/bench_cover.cpp, app/bench_lines.cpp,
+/// app/bench_flight.cpp).
 std::vector<BenchmarkEntry> geometry_benchmarks();
 std::vector<BenchmarkEntry> cover_benchmarks();
+std::vector<BenchmarkEntry> line_benchmarks();
 std::vector<BenchmarkEntry> flight_benchmarks(int rounds);
 
 }  // namespace app

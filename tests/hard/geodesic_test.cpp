@@ -1,0 +1,221 @@
+// H9, H10: distances as the command line answers them, against Karney's test set and the sphere's truth.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "globe/geo/ellipsoid.h"
+#include "globe/geo/geodesic.h"
+#include "tests/cli/run_program.h"
+#include "tests/hard/quad.h"
+#include "tests/hard/table.h"
+
+namespace {
+
+using globe::geo::Geodetic;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kGeodesicError = 15e-9;  ///< metres; HARD-CASES H9
+constexpr double kSphereError = 5e-9;     ///< metres; HARD-CASES H10
+constexpr double kSphereRadius = 6371008.8;
+
+struct Pair {
+  Geodetic a, b;
+};
+
+std::string digits(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+/// What `globe distance` answers to pairs on its standard input: {s12, azi1, azi2} a line.
+std::vector<std::array<double, 3>> ask(const std::vector<Pair>& pairs,
+                                       std::vector<std::string> options = {}) {
+  std::string lines;
+  for (const Pair& pair : pairs) {
+    lines += digits(pair.a.lat_deg) + ' ' + digits(pair.a.lon_deg) + ' ' + digits(pair.b.lat_deg) + ' ' +
+             digits(pair.b.lon_deg) + '\n';
+  }
+  options.insert(options.begin(), "distance");
+  const cli::Outcome run = cli::run_program(options, lines);
+  EXPECT_EQ(run.status, 0) << run.err;
+  std::vector<std::array<double, 3>> answers;
+  for (const std::string& line : run.lines()) {
+    std::istringstream words(line);
+    std::array<double, 3> numbers{};
+    for (double& number : numbers) EXPECT_TRUE(words >> number) << line;
+    answers.push_back(numbers);
+  }
+  EXPECT_EQ(answers.size(), pairs.size());
+  return answers;
+}
+
+/// Vincenty 1975, the inverse problem on WGS84; nothing when 100 rounds do not settle it.
+std::optional<double> vincenty(const Geodetic& p, const Geodetic& q) {
+  const double a = globe::geo::kWgs84.a, f = globe::geo::kWgs84.f, b = a * (1.0 - f);
+  const double u1 = std::atan((1.0 - f) * std::tan(p.lat_deg * kDegree));
+  const double u2 = std::atan((1.0 - f) * std::tan(q.lat_deg * kDegree));
+  const double lon = (q.lon_deg - p.lon_deg) * kDegree;
+  double lambda = lon;
+  for (int round = 0; round < 100; ++round) {
+    const double x = std::cos(u2) * std::sin(lambda);
+    const double y = std::cos(u1) * std::sin(u2) - std::sin(u1) * std::cos(u2) * std::cos(lambda);
+    const double sin_sigma = std::hypot(x, y);
+    if (sin_sigma == 0.0) return 0.0;
+    const double cos_sigma = std::sin(u1) * std::sin(u2) + std::cos(u1) * std::cos(u2) * std::cos(lambda);
+    const double sigma = std::atan2(sin_sigma, cos_sigma);
+    const double sin_alpha = std::cos(u1) * std::cos(u2) * std::sin(lambda) / sin_sigma;
+    const double cos2_alpha = 1.0 - sin_alpha * sin_alpha;
+    const double cos_2m =
+        cos2_alpha == 0.0 ? 0.0 : cos_sigma - 2.0 * std::sin(u1) * std::sin(u2) / cos2_alpha;
+    const double c = f / 16.0 * cos2_alpha * (4.0 + f * (4.0 - 3.0 * cos2_alpha));
+    const double bend = cos_2m + c * cos_sigma * (2.0 * cos_2m * cos_2m - 1.0);
+    const double next = lon + (1.0 - c) * f * sin_alpha * (sigma + c * sin_sigma * bend);
+    if (std::abs(next - lambda) < 1e-12) {
+      const double k2 = cos2_alpha * (a * a - b * b) / (b * b);
+      const double big_a = 1.0 + k2 / 16384.0 * (4096.0 + k2 * (-768.0 + k2 * (320.0 - 175.0 * k2)));
+      const double big_b = k2 / 1024.0 * (256.0 + k2 * (-128.0 + k2 * (74.0 - 47.0 * k2)));
+      const double m2 = 2.0 * cos_2m * cos_2m - 1.0;
+      const double delta =
+          big_b * sin_sigma *
+          (cos_2m + big_b / 4.0 *
+                        (cos_sigma * m2 - big_b / 6.0 * cos_2m * (4.0 * sin_sigma * sin_sigma - 3.0) *
+                                              (4.0 * cos_2m * cos_2m - 3.0)));
+      return b * big_a * (sigma - delta);
+    }
+    lambda = next;
+  }
+  return std::nullopt;
+}
+
+TEST(HardGeodesic, KarneysTestSetIsAnsweredWithin15Nanometres) {
+  // The kinds of lines in file order are told in geodtest500.txt beside the file.
+  constexpr std::size_t kLines = 500, kFirstNearAntipodal = 100, kNearAntipodal = 120;
+  const std::filesystem::path path = std::filesystem::path(GLOBE_DATA_DIR) / ".." / "geodtest500.dat";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "TEST SET MISSING: " << path;
+  std::vector<Pair> pairs;
+  std::vector<std::array<double, 3>> truth;
+  std::vector<double> m12;  // what an end moves sideways, a radian of azimuth
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    double lat1 = 0, lon1 = 0, azi1 = 0, lat2 = 0, lon2 = 0, azi2 = 0, s12 = 0, a12 = 0, m = 0;
+    ASSERT_TRUE(words >> lat1 >> lon1 >> azi1 >> lat2 >> lon2 >> azi2 >> s12 >> a12 >> m) << line;
+    pairs.push_back({{lat1, lon1}, {lat2, lon2}});
+    truth.push_back({s12, azi1, azi2});
+    m12.push_back(std::abs(m));
+  }
+  ASSERT_EQ(pairs.size(), kLines);
+  const auto answers = ask(pairs);
+  double worst = 0, worst_aside = 0;
+  std::size_t unsettled = 0;
+  for (std::size_t k = 0; k < kLines; ++k) {
+    ASSERT_TRUE(std::isfinite(answers[k][0]) && std::isfinite(answers[k][1]) && std::isfinite(answers[k][2]));
+    worst = std::max(worst, std::abs(answers[k][0] - truth[k][0]));
+    for (const std::size_t end : {1u, 2u}) {
+      const double turn = std::remainder(answers[k][end] - truth[k][end], 360.0);
+      worst_aside = std::max(worst_aside, std::abs(turn) * kDegree * m12[k]);
+    }
+    const bool near_antipodal = k >= kFirstNearAntipodal && k < kFirstNearAntipodal + kNearAntipodal;
+    if (near_antipodal && !vincenty(pairs[k].a, pairs[k].b)) ++unsettled;
+  }
+  EXPECT_LE(worst, kGeodesicError);
+  EXPECT_LE(worst_aside, kGeodesicError);
+  EXPECT_GT(unsettled, kNearAntipodal / 4) << "Vincenty must fail between near-antipodal places";
+  const double share = 100.0 * static_cast<double>(unsettled) / static_cast<double>(kNearAntipodal);
+  hard::report("H9", "geodesics by the command line, 500 of Karney's, nm", "15",
+               hard::figure(worst * 1e9) + ", by azimuth " + hard::figure(worst_aside * 1e9) +
+                   " (Vincenty: " + hard::figure(share) +
+                   " % of near-antipodal pairs do not settle in 100 rounds)");
+}
+
+TEST(HardGeodesic, VincentyAgreesWhereItSettles) {
+  const globe::geo::GeodesicSolver solver(globe::geo::kWgs84);
+  const auto settled = vincenty({50, 8}, {-33, 151});
+  ASSERT_TRUE(settled.has_value());
+  EXPECT_NEAR(*settled, solver.inverse({50, 8}, {-33, 151}).s12_m, 1e-3);  // its own error is 0.5 mm
+}
+
+/// On a sphere, from exact degrees: atan2 of sine and cosine in quadruple precision.
+double true_distance(const Pair& pair) {
+  const auto vector = [](const Geodetic& at) {
+    const auto lat = hard::quad_sine_cosine(at.lat_deg), lon = hard::quad_sine_cosine(at.lon_deg);
+    return hard::QuadVector{lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine};
+  };
+  const hard::QuadVector u = vector(pair.a), v = vector(pair.b);
+  const hard::QuadVector across = hard::cross(u, v);
+  const auto length = static_cast<long double>(dot(across, across));
+  const auto along = static_cast<long double>(dot(u, v));
+  return static_cast<double>(static_cast<long double>(kSphereRadius) * std::atan2(std::sqrt(length), along));
+}
+
+double by_acos(const Pair& pair) {
+  const double p = pair.a.lat_deg * kDegree, q = pair.b.lat_deg * kDegree;
+  const double lon = (pair.b.lon_deg - pair.a.lon_deg) * kDegree;
+  const double cosine = std::sin(p) * std::sin(q) + std::cos(p) * std::cos(q) * std::cos(lon);
+  return kSphereRadius * std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+double by_haversine(const Pair& pair) {
+  const double p = pair.a.lat_deg * kDegree, q = pair.b.lat_deg * kDegree;
+  const double s = std::sin((q - p) / 2.0);
+  const double t = std::sin((pair.b.lon_deg - pair.a.lon_deg) * kDegree / 2.0);
+  return 2.0 * kSphereRadius * std::asin(std::min(1.0, std::sqrt(s * s + std::cos(p) * std::cos(q) * t * t)));
+}
+
+/// Pairs whose separation, or distance from the antipode, is log-uniform from 0.1 mm to the whole sphere,
+/// poles, the equator and the antimeridian among them.
+std::vector<Pair> pairs_at_every_separation(std::size_t count) {
+  std::mt19937_64 random(1010);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::vector<Pair> pairs;
+  while (pairs.size() < count) {
+    Geodetic a{std::asin(unit(random)) / kDegree, 180.0 * unit(random)};
+    if (pairs.size() % 10 == 0) a.lat_deg = 0.0;
+    if (pairs.size() % 10 == 1) a.lat_deg = 90.0;
+    if (pairs.size() % 10 == 2) a.lon_deg = -180.0;
+    const double span_deg = 180.0 * std::pow(10.0, 5.65 * (unit(random) - 1.0));  // 0.1 mm to the antipode
+    const double turn = std::numbers::pi * unit(random);
+    const double lat = std::clamp(a.lat_deg + span_deg * std::cos(turn), -90.0, 90.0);
+    const double across = std::max(std::cos(a.lat_deg * kDegree), 1e-3);
+    Geodetic b{lat, std::remainder(a.lon_deg + span_deg * std::sin(turn) / across, 360.0)};
+    if (pairs.size() % 2 == 0) b = {-b.lat_deg, std::remainder(b.lon_deg + 180.0, 360.0)};
+    pairs.push_back({a, b});
+  }
+  return pairs;
+}
+
+TEST(HardGeodesic, DistanceOnTheSphereIsRightAtEverySeparation) {
+  const std::vector<Pair> pairs = pairs_at_every_separation(hard::cases(200000));
+  const auto answers = ask(pairs, {"--ellipsoid", digits(kSphereRadius) + ",0"});
+  double worst = 0, worst_acos = 0, worst_haversine = 0, shortest = 1e9, longest = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const double truth = true_distance(pairs[k]);
+    shortest = std::min(shortest, truth);
+    longest = std::max(longest, truth);
+    worst = std::max(worst, std::abs(answers[k][0] - truth));
+    worst_acos = std::max(worst_acos, std::abs(by_acos(pairs[k]) - truth));
+    worst_haversine = std::max(worst_haversine, std::abs(by_haversine(pairs[k]) - truth));
+  }
+  EXPECT_LT(shortest, 1e-3);
+  EXPECT_GT(longest, std::numbers::pi * kSphereRadius - 1e-3);
+  EXPECT_LE(worst, kSphereError);
+  EXPECT_GT(worst_acos, 1e-2) << "the arc cosine must fail";
+  EXPECT_GT(worst_haversine, 1e-5) << "the haversine must fail";
+  hard::report("H10", "distance on the sphere at every separation, nm", "5",
+               hard::figure(worst * 1e9) + " (acos " + hard::figure(worst_acos) + " m, haversine " +
+                   hard::figure(worst_haversine) + " m)");
+}
+
+}  // namespace
