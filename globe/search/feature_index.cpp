@@ -14,12 +14,15 @@
 #include "globe/search/hit_list.h"
 #include "globe/search/key_ranges.h"
 #include "globe/search/schema.h"
+#include "globe/search/shape.h"
 #include "globe/search/sqlite.h"
+#include "globe/search/wkb.h"
 
 namespace globe::search {
 namespace {
 
 #define GLOBE_POINT_COLUMNS "SELECT htm, id, lat, lon, name, properties FROM point "
+#define GLOBE_SHAPE_COLUMNS "SELECT 0, id, lat, lon, name, properties, geometry FROM shape "
 
 /// Opens for one long read, so that all questions see the same state.
 Connection open(const std::filesystem::path& path) {
@@ -47,13 +50,23 @@ struct FeatureIndex::Parts {
         after(connection, GLOBE_POINT_COLUMNS "WHERE htm >= ? ORDER BY htm, id"),
         before(connection, GLOBE_POINT_COLUMNS "WHERE htm < ? ORDER BY htm DESC, id DESC"),
         one(connection, GLOBE_POINT_COLUMNS "WHERE htm = ? AND id = ?"),
+        all_shapes(connection, GLOBE_SHAPE_COLUMNS),
+        one_shape(connection, GLOBE_SHAPE_COLUMNS "WHERE id = ?"),
+        cover_range(connection, "SELECT id FROM cover WHERE htm BETWEEN ? AND ?"),
+        cover_trixel(connection, "SELECT id FROM cover WHERE htm = ? AND level = ?"),
         names(connection, "SELECT folded, htm, id FROM name WHERE folded >= ? ORDER BY folded") {}
+
+  Error damage(const std::string& what) const {
+    return {path.string(), "it is damaged (" + what + ")", "index the features again"};
+  }
 
   std::filesystem::path path;
   Connection connection;
   About about;
   GeographicLib::Geodesic earth;
   Statement all, range, after, before, one;  ///< points: all the same columns
+  Statement all_shapes, one_shape;           ///< the same columns, and the geometry
+  Statement cover_range, cover_trixel;
   Statement names;
 };
 
@@ -87,17 +100,22 @@ class FeatureIndex::Search {
 
   void narrow(Ranges ranges) { ranges_ = ranges_ ? intersection(*ranges_, ranges) : std::move(ranges); }
 
-  /// The row's feature, if it passes. `inside`: its trixel is known to lie in all regions.
-  std::optional<Hit> passing(const Statement& row, bool inside) const {
-    Hit hit;
-    hit.htm = static_cast<std::uint64_t>(row.integer(0));
-    hit.id = row.integer(1);
-    hit.lat_deg = row.real(2);
-    hit.lon_deg = row.real(3);
-    if (!(std::abs(hit.lat_deg) <= 90.0) || !(std::abs(hit.lon_deg) <= 180.0)) {
-      throw Error(parts_.path.string(), "it is damaged (a place beyond the planet)",
-                  "index the features again");
-    }
+  bool passes_attributes(const Statement& row) const {
+    if (!folded_prefix_.empty() && !folded_name(row.bytes(4)).starts_with(folded_prefix_)) return false;
+    return std::all_of(query_.properties.begin(), query_.properties.end(),
+                       [&](const PropertyTest& test) { return test.passes(row.bytes(5)); });
+  }
+
+  Hit hit_of(const Statement& row) const {
+    const Hit hit{row.integer(1), static_cast<std::uint64_t>(row.integer(0)), row.real(2), row.real(3), 0.0};
+    if (!(std::abs(hit.lat_deg) <= 90.0) || !(std::abs(hit.lon_deg) <= 180.0))
+      throw parts_.damage("a place beyond the planet");
+    return hit;
+  }
+
+  /// The point in a row, if it passes. `inside`: its trixel is known to lie in all regions.
+  std::optional<Hit> passing_point(const Statement& row, bool inside) const {
+    Hit hit = hit_of(row);
     if (query_.near) {
       const geo::Geodetic& near = *query_.near;
       parts_.earth.Inverse(near.lat_deg, near.lon_deg, hit.lat_deg, hit.lon_deg, hit.distance_m);
@@ -108,28 +126,80 @@ class FeatureIndex::Search {
       for (const auto& region : query_.regions)
         if (!region->contains(u)) return std::nullopt;
     }
-    if (!folded_prefix_.empty() && !folded_name(row.bytes(4)).starts_with(folded_prefix_))
-      return std::nullopt;
-    for (const PropertyTest& test : query_.properties)
-      if (!test.passes(row.bytes(5))) return std::nullopt;
+    if (!passes_attributes(row)) return std::nullopt;
     return hit;
   }
 
-  void consider(const Statement& row, bool inside) {
-    if (const std::optional<Hit> hit = passing(row, inside)) hits_.add(*hit);
+  /// The shape in a row, if it passes.
+  std::optional<Hit> passing_shape(const Statement& row) const {
+    if (!passes_attributes(row)) return std::nullopt;
+    Hit hit = hit_of(row);
+    if (!query_.near && query_.regions.empty()) return hit;
+    const Shape shape = shape_of(row.bytes(6));
+    if (query_.near) {
+      const Nearest nearest = shape.nearest(parts_.earth, *query_.near);
+      hit.distance_m = nearest.distance_m;
+      hit.lat_deg = nearest.at.lat_deg;
+      hit.lon_deg = std::remainder(nearest.at.lon_deg, 360.0);
+      if (radius_m_ && hit.distance_m > *radius_m_) return std::nullopt;
+    }
+    for (const auto& region : query_.regions)
+      if (!shape.touches(*region)) return std::nullopt;
+    return hit;
+  }
+
+  Shape shape_of(std::string_view wkb) const {
+    const std::optional<geo::Geometry> geometry = from_wkb(wkb);
+    if (!geometry || geometry->empty()) throw parts_.damage("a geometry that is none");
+    try {
+      return Shape(*geometry);
+    } catch (const UsageError& error) {
+      throw parts_.damage(error.what());
+    }
+  }
+
+  void consider_point(const Statement& row, bool inside) {
+    if (const std::optional<Hit> hit = passing_point(row, inside)) hits_.add(*hit);
+  }
+
+  void consider_shape(std::int64_t id) {
+    parts_.one_shape.with(id);
+    if (!parts_.one_shape.step()) throw parts_.damage("a feature is missing");
+    if (const std::optional<Hit> hit = passing_shape(parts_.one_shape)) hits_.add(*hit);
+    parts_.one_shape.reset();
   }
 
   /// All features in the ranges, or everywhere.
   void by_ranges(const std::optional<Ranges>& ranges) {
-    if (!ranges) {
-      parts_.all.with();
-      while (parts_.all.step()) consider(parts_.all, false);
-      return;
-    }
+    if (!ranges) return everywhere();
     for (const htm::IdRange& range : *ranges) {
       parts_.range.with(range.first, range.last);
-      while (parts_.range.step()) consider(parts_.range, range.inside);
+      while (parts_.range.step()) consider_point(parts_.range, range.inside);
     }
+    for (const std::int64_t id : shapes_in(*ranges)) consider_shape(id);
+  }
+
+  void everywhere() {
+    parts_.all.with();
+    while (parts_.all.step()) consider_point(parts_.all, false);
+    parts_.all_shapes.with();
+    while (parts_.all_shapes.step())
+      if (const std::optional<Hit> hit = passing_shape(parts_.all_shapes)) hits_.add(*hit);
+  }
+
+  /// Shapes with a trixel of their cover in the ranges, or around one of them: each once.
+  std::vector<std::int64_t> shapes_in(const Ranges& ranges) const {
+    std::vector<std::int64_t> ids;
+    if (parts_.about.shapes == 0) return ids;
+    const auto gather = [&](Statement& statement) {
+      while (statement.step()) ids.push_back(statement.integer(0));
+    };
+    for (const htm::IdRange& range : ranges) gather(parts_.cover_range.with(range.first, range.last));
+    for (const Ancestor& trixel : ancestors(ranges))
+      gather(parts_.cover_trixel.with(trixel.first, trixel.level));
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return ids;
   }
 
   void within_radius() {
@@ -144,8 +214,14 @@ class FeatureIndex::Search {
     std::vector<std::pair<std::int64_t, std::int64_t>> found;
     const auto consider_found = [&] {
       for (const auto& [htm, id] : found) {
+        if (htm == 0) {
+          consider_shape(id);
+          continue;
+        }
         parts_.one.with(htm, id);
-        if (parts_.one.step()) consider(parts_.one, false);
+        if (!parts_.one.step()) throw parts_.damage("a feature is missing");
+        consider_point(parts_.one, false);
+        parts_.one.reset();
       }
       found.clear();
     };
@@ -189,7 +265,7 @@ class FeatureIndex::Search {
       side->with(at.id);
       std::size_t passed = 0;
       for (std::size_t looked = 0; looked < most && passed < count && side->step(); ++looked) {
-        const std::optional<Hit> hit = passing(*side, false);
+        const std::optional<Hit> hit = passing_point(*side, false);
         if (!hit) continue;
         neighbours.add(*hit);
         ++passed;
@@ -218,10 +294,8 @@ std::uint64_t FeatureIndex::size() const { return parts_->about.points + parts_-
 std::vector<Hit> FeatureIndex::find(const Query& query) { return Search(*parts_, query).run(); }
 
 FoundFeature FeatureIndex::read(const Hit& hit) {
-  Statement& one = parts_->one.with(hit.htm, hit.id);
-  if (!one.step()) {
-    throw Error(parts_->path.string(), "it is damaged (a feature is missing)", "index the features again");
-  }
+  Statement& one = hit.htm == 0 ? parts_->one_shape.with(hit.id) : parts_->one.with(hit.htm, hit.id);
+  if (!one.step()) throw parts_->damage("a feature is missing");
   FoundFeature feature{std::string(one.bytes(4)), std::string(one.bytes(5))};
   one.reset();
   return feature;

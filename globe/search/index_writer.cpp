@@ -4,10 +4,11 @@
 #include <string_view>
 #include <utility>
 
-#include "globe/base/error.h"
 #include "globe/geo/normals.h"
 #include "globe/htm/trixel.h"
 #include "globe/search/folded_name.h"
+#include "globe/search/shape.h"
+#include "globe/search/wkb.h"
 
 namespace globe::search {
 namespace {
@@ -17,6 +18,11 @@ constexpr std::size_t kBatch = 4096;  ///< points whose trixels are found togeth
 /// SQLite's sorter spills to files of this folder, which are gone with the process.
 void keep_temporary_files_in(const std::filesystem::path& folder) {
   sqlite3_free(std::exchange(sqlite3_temp_directory, sqlite3_mprintf("%s", folder.c_str())));
+}
+
+double folded_longitude(double lon_deg) {
+  const double lon = std::remainder(lon_deg, 360.0);  // exact
+  return lon >= 180.0 ? lon - 360.0 : lon;
 }
 
 void sql_folded_name(sqlite3_context* context, int, sqlite3_value** values) {
@@ -42,7 +48,8 @@ Connection create(const PendingFile& file) {
   create_tables(connection);
   connection.execute(
       "CREATE TEMP TABLE staged(id INTEGER PRIMARY KEY, htm INTEGER, lat REAL, lon REAL, name TEXT, "
-      "properties TEXT)");
+      "properties TEXT);"
+      "CREATE TEMP TABLE staged_cover(htm INTEGER, level INTEGER, id INTEGER)");
   sqlite3_create_function(connection.handle(), "folded_name", 1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr,
                           sql_folded_name, nullptr, nullptr);
   return connection;
@@ -54,21 +61,43 @@ IndexWriter::IndexWriter(const std::filesystem::path& path, const geo::Ellipsoid
     : file_(path, overwrite),
       connection_(create(file_)),
       about_{ellipsoid, 0, 0},
-      stage_point_(connection_, "INSERT INTO temp.staged VALUES(?, ?, ?, ?, ?, ?)") {
+      stage_point_(connection_, "INSERT INTO temp.staged VALUES(?, ?, ?, ?, ?, ?)"),
+      stage_cover_(connection_, "INSERT INTO temp.staged_cover VALUES(?, ?, ?)"),
+      insert_shape_(connection_, "INSERT INTO shape VALUES(?, ?, ?, ?, ?, ?)") {
   points_.reserve(kBatch);
 }
 
 void IndexWriter::add(NewFeature&& feature) {
-  geo::Geometry& geometry = feature.geometry;
+  const geo::Geometry& geometry = feature.geometry;
   if (geometry.empty()) return;
-  if (geometry.points.size() != 1 || !geometry.lines.empty() || !geometry.polygons.empty())
-    throw Error("feature", "it is no single point", "index points");
-  geo::Geodetic at = geometry.points[0];
-  at.lon_deg = std::remainder(at.lon_deg, 360.0);  // exact
-  if (at.lon_deg >= 180.0) at.lon_deg -= 360.0;
+  if (geometry.points.size() == 1 && geometry.lines.empty() && geometry.polygons.empty()) {
+    add_point(std::move(feature));
+  } else {
+    add_shape(feature);
+  }
+}
+
+void IndexWriter::add_point(NewFeature&& feature) {
+  geo::Geodetic at = feature.geometry.points[0];
+  at.lon_deg = folded_longitude(at.lon_deg);
   ++about_.points;
   points_.push_back({size(), at, std::move(feature.name), std::move(feature.properties)});
   if (points_.size() == kBatch) stage_points();
+}
+
+void IndexWriter::add_shape(const NewFeature& feature) {
+  const Shape shape(feature.geometry);
+  ++about_.shapes;
+  const geo::Geodetic& at = shape.any_place();
+  const std::string geometry = to_wkb(feature.geometry);
+  insert_shape_
+      .with(size(), at.lat_deg, folded_longitude(at.lon_deg), std::string_view(feature.name),
+            std::string_view(feature.properties), Blob{geometry})
+      .step();
+  for (const htm::Trixel trixel : shape.cover()) {
+    const int level = htm::level(trixel);
+    stage_cover_.with(trixel.id << (2 * (kIndexLevel - level)), level, size()).step();
+  }
 }
 
 void IndexWriter::stage_points() {
@@ -93,11 +122,14 @@ void IndexWriter::stage_points() {
 
 void IndexWriter::finish() {
   stage_points();
-  stage_point_.reset();
+  for (Statement* statement : {&stage_point_, &stage_cover_, &insert_shape_}) statement->reset();
   connection_.execute(
       "INSERT INTO point SELECT htm, id, lat, lon, name, properties FROM temp.staged ORDER BY htm, id;"
       "DROP TABLE temp.staged;"
-      "INSERT INTO name SELECT folded_name(name), htm, id FROM point WHERE name <> '' ORDER BY 1, 2, 3;");
+      "INSERT INTO cover SELECT DISTINCT htm, level, id FROM temp.staged_cover ORDER BY htm, level, id;"
+      "DROP TABLE temp.staged_cover;"
+      "INSERT INTO name SELECT folded_name(name), htm, id FROM point WHERE name <> '' UNION ALL "
+      "SELECT folded_name(name), 0, id FROM shape WHERE name <> '' ORDER BY 1, 2, 3;");
   write_about(connection_, about_);
   connection_.execute("COMMIT");
   file_.publish();

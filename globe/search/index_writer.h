@@ -24,7 +24,7 @@ class IndexWriter {
   IndexWriter(const std::filesystem::path& path, const geo::Ellipsoid& ellipsoid, bool overwrite);
 
   /// Adds a feature; its id is its number, from 1. One without any place gets no number and is left out.
-  /// Throws Error for a polygon that is none.
+  /// Throws UsageError for a line or polygon that is none (shape.h).
   void add(NewFeature&& feature);
 
   std::uint64_t size() const { return about_.points + about_.shapes; }
@@ -39,13 +39,15 @@ class IndexWriter {
     std::string name, properties;
   };
 
+  void add_point(NewFeature&& feature);
+  void add_shape(const NewFeature& feature);
   void stage_points();
 
   PendingFile file_;
   Connection connection_;
   About about_;
   std::vector<Point> points_;  ///< that wait to be staged
-  Statement stage_point_;
+  Statement stage_point_, stage_cover_, insert_shape_;
 };
 
 }  // namespace globe::search

@@ -21,7 +21,7 @@ inline constexpr int kIndexLevel = 20;
 /// about   what the database is: see About
 /// point   features that are one point
 /// shape   all others; lat, lon: a place of it; geometry: a GeometryCollection in well-known binary
-/// cover   trixels that hold each shape: the first level-20 id in the trixel, and the trixel's level
+/// cover   trixels that together hold each shape: the first level-20 id in the trixel, and its level
 /// name    the names folded (folded_name.h); htm is 0 for shapes
 inline constexpr std::array<const char*, 5> kTables{
     "CREATE TABLE about(key TEXT PRIMARY KEY, value) WITHOUT ROWID",

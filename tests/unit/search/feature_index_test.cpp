@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "globe/base/error.h"
@@ -20,6 +23,7 @@
 #include "globe/region/ellipsoid_cone.h"
 #include "globe/region/lat_lon_box.h"
 #include "globe/search/index_writer.h"
+#include "globe/search/shape.h"
 #include "tests/temporary_folder.h"
 
 namespace globe::search {
@@ -293,6 +297,85 @@ TEST(FeatureIndex, GivesBackWhatWasPutIn) {
   EXPECT_EQ(places.index().read(hits[0]).name, "Pole");
   EXPECT_EQ(places.index().read(hits[0]).properties, "{\"a\":1}");
   EXPECT_EQ(places.index().read(hits[1]).name, "");
+}
+
+/// Lines and polygons of all sizes.
+std::vector<geo::Geometry> random_shapes(std::size_t count, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const std::vector<Place> places = random_places(count, random);
+  std::vector<geo::Geometry> shapes;
+  for (const Place& place : places) {
+    const auto frame = geo::local_frame(place.lat_deg, place.lon_deg);
+    const double size = std::pow(10.0, -6.0 + 6.0 * unit(random));
+    const int corners = 3 + static_cast<int>(random() % 5);
+    geo::Geometry::Line line;
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2.0 * M_PI * k / corners, r = size * (0.3 + 0.7 * unit(random));
+      line.push_back(geo::degrees_from_normal(
+          frame.up + r * (std::cos(angle) * frame.east + std::sin(angle) * frame.north)));
+    }
+    shapes.emplace_back();
+    switch (random() % 3) {
+      case 0:
+        shapes.back().polygons.push_back({line});
+        break;
+      case 1:
+        shapes.back().lines.push_back(line);
+        break;
+      default:
+        shapes.back().points = line;
+    }
+  }
+  return shapes;
+}
+
+TEST(FeatureIndex, LinesAndPolygonsAgreeWithALookAtAllOfThem) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const std::vector<geo::Geometry> shapes = random_shapes(400, random);
+  const std::vector<Place> places = random_places(400, random);
+  const tests::TemporaryFolder folder;
+  IndexWriter writer(folder / "a.db", kEarth, false);
+  for (const Place& place : places) writer.add(feature_of(place));
+  for (const geo::Geometry& geometry : shapes) writer.add({geometry, "shape", ""});
+  writer.finish();
+  FeatureIndex index(folder / "a.db");
+  const GeographicLib::Geodesic earth(kEarth.a, kEarth.f);
+  const int queries = std::getenv("GLOBE_TEST_FULL") != nullptr ? 3000 : 120;
+  std::size_t found = 0;
+  for (int k = 0; k < queries; ++k) {
+    SCOPED_TRACE("query " + std::to_string(k));
+    Query query;
+    if (k % 3 != 0) query.near = random_point(places, random);
+    if (query.near && k % 2 == 0) query.radius_m = std::pow(10.0, 1.0 + 6.3 * unit(random));
+    if (k % 3 == 0 || k % 7 == 0) query.regions.push_back(random_region(places, random));
+    if (k % 5 == 0) query.count = 1 + random() % 20;
+    std::vector<std::pair<double, std::int64_t>> expected;
+    for (std::size_t n = 0; n < shapes.size(); ++n) {
+      const Shape shape(shapes[n]);
+      const double distance_m = query.near ? shape.nearest(earth, *query.near).distance_m : 0.0;
+      if (query.radius_m && distance_m > *query.radius_m) continue;
+      if (query.regions.empty() || shape.touches(*query.regions[0]))
+        expected.emplace_back(distance_m, static_cast<std::int64_t>(places.size() + n) + 1);
+    }
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      const Place& place = places[n];
+      const double distance_m =
+          query.near ? geo::geodesic_distance_m(kEarth, *query.near, {place.lat_deg, place.lon_deg, 0.0})
+                     : 0.0;
+      if (query.radius_m && distance_m > *query.radius_m) continue;
+      if (query.regions.empty() ||
+          query.regions[0]->contains(geo::normal_from_degrees(place.lat_deg, place.lon_deg)))
+        expected.emplace_back(distance_m, static_cast<std::int64_t>(n) + 1);
+    }
+    std::sort(expected.begin(), expected.end());
+    if (query.count && expected.size() > *query.count) expected.resize(*query.count);
+    std::vector<std::pair<double, std::int64_t>> seen;
+    for (const Hit& hit : index.find(query)) seen.emplace_back(hit.distance_m, hit.id);
+    EXPECT_EQ(seen, expected);
+    found += seen.size();
+  }
+  EXPECT_GT(found, 100u);
 }
 
 std::string refusal(const std::filesystem::path& path) {
