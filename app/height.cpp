@@ -1,8 +1,8 @@
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/interpolation_option.h"
 #include "app/planet_argument.h"
 #include "app/point.h"
 #include "app/records.h"
@@ -15,15 +15,11 @@ namespace {
 
 using globe::planet::Interpolation;
 
-const std::map<std::string, Interpolation> kInterpolations{{"nearest", Interpolation::kNearest},
-                                                           {"linear", Interpolation::kLinear},
-                                                           {"cubic", Interpolation::kCubic}};
-
 struct HeightOptions {
   std::string planet;
   std::vector<std::string> points;
   std::optional<int> level;
-  std::string interpolation = "linear";
+  Interpolation interpolation = Interpolation::kLinear;
   RecordOptions records;
 };
 
@@ -64,14 +60,13 @@ int run(const HeightOptions& options) {
   const auto surface = open_planet(options.planet);
   require_heights(*surface, options.planet);
   warn_of_unknown_datum(*surface, options.planet);
-  const Interpolation interpolation = kInterpolations.at(options.interpolation);
   const int level = options.level.value_or(surface->data_level());
   const bool measured = surface->has_data() && level <= surface->data_level();
   const auto& precision = options.records.precision;
   const auto answer = [&](const std::string& record) {
     const auto at = parse_point(record).position;
     const auto u = globe::geo::normal_from_degrees(at.lat_deg, at.lon_deg);
-    const auto height = globe::planet::height_at(*surface, u, level, interpolation);
+    const auto height = globe::planet::height_at(*surface, u, level, options.interpolation);
     Answer result{shown(at.lat_deg, precision),
                   shown_longitude(at.lon_deg, precision),
                   level,
@@ -79,8 +74,10 @@ int run(const HeightOptions& options) {
                   measured ? "data" : "synthesised",
                   std::nullopt,
                   surface->info().vertical_datum};
-    if (measured)
-      result.error_m = interpolation == Interpolation::kNearest ? height.spread_m : 0.5 * height.spread_m;
+    if (measured) {
+      const bool nearest = options.interpolation == Interpolation::kNearest;
+      result.error_m = nearest ? height.spread_m : 0.5 * height.spread_m;
+    }
     if (options.records.json) return json_line(result, precision);
     return options.records.csv ? fields(result, precision, ',', "") : fields(result, precision, ' ', "-");
   };
@@ -101,11 +98,7 @@ void add_height(CLI::App& program, int& exit_status) {
       ->add_option("--level", options->level,
                    "HTM level (default: the data at their finest; procedural: the level of its own relief)")
       ->check(CLI::Range(0, globe::htm::kMaxLevel));
-  command
-      ->add_option("--interpolation", options->interpolation,
-                   "between the nodes; cubic is clamped to the range of the nodes it is made of")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"nearest", "linear", "cubic"}));
+  add_interpolation_option(*command, options->interpolation);
   add_record_options(*command, options->records);
   command->footer(
       "Text: LAT LON LEVEL HEIGHT_M SOURCE ERROR_M DATUM.  An ALT is not looked at.\n"
