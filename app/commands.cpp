@@ -18,6 +18,7 @@ void add_commands(CLI::App& program, int& exit_status) {
   add_trixel(program, exit_status);
   add_height(program, exit_status);
   add_distance(program, exit_status);
+  add_profile(program);
 }
 
 std::vector<std::string> arguments(int argc, const char* const* argv) {
