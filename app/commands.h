@@ -27,6 +27,7 @@ void add_bench(CLI::App& program);
 void add_cover(CLI::App& program);
 void add_find(CLI::App& program);
 void add_fly(CLI::App& program);
+void add_profile(CLI::App& program);
 void add_shot(CLI::App& program);
 
 }  // namespace app
