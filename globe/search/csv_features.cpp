@@ -28,6 +28,11 @@ std::optional<std::size_t> column_number(const std::string& text) {
   return number - 1;
 }
 
+/// Why a line is left out; caught below.
+struct Fault {
+  std::string why;
+};
+
 /// Where things are in a record.
 struct Layout {
   std::size_t lat = kNone, lon = kNone, name = kNone;
@@ -42,6 +47,12 @@ std::optional<Layout> layout_by_number(const Columns& columns) {
   return Layout{*lat, *lon, *name, {}};
 }
 
+void check_text(const std::string& text) {
+  if (u8_check(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()) != nullptr)
+    throw Fault{"it is not in UTF-8"};
+  if (text.find('\0') != std::string::npos) throw Fault{"it holds a NUL byte"};
+}
+
 std::size_t find_column(const std::vector<std::string>& header,
                         std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
@@ -52,6 +63,8 @@ std::size_t find_column(const std::vector<std::string>& header,
 }
 
 Layout layout_by_header(const CsvRecord& header, const std::string& file, const Columns& columns) {
+  if (!header.fault.empty()) throw Fault{header.fault};
+  for (const std::string& name : header.fields) check_text(name);
   const std::string where = file + ":" + std::to_string(header.line);
   const auto find = [&](const std::string& wanted, std::initializer_list<std::string_view> usual,
                         const char* usual_text) {
@@ -73,11 +86,6 @@ Layout layout_by_header(const CsvRecord& header, const std::string& file, const 
   }
   return layout;
 }
-
-/// Why a line is left out; caught below.
-struct Fault {
-  std::string why;
-};
 
 std::string in_quotes(std::string text) {
   constexpr std::size_t kShown = 40;
@@ -105,11 +113,7 @@ NewFeature feature_of(const CsvRecord& record, const Layout& layout) {
   if (!layout.keys.empty() && fields.size() > layout.keys.size())
     throw Fault{"it has " + std::to_string(fields.size()) + " fields, the header " +
                 std::to_string(layout.keys.size())};
-  for (const std::string& field : fields) {
-    if (u8_check(reinterpret_cast<const std::uint8_t*>(field.data()), field.size()) != nullptr)
-      throw Fault{"it is not in UTF-8"};
-    if (field.find('\0') != std::string::npos) throw Fault{"it holds a NUL byte"};
-  }
+  for (const std::string& field : fields) check_text(field);
   geo::Geodetic at;
   at.lat_deg = degrees(fields, layout.lat, "latitude");
   at.lon_deg = degrees(fields, layout.lon, "longitude");
@@ -135,15 +139,14 @@ void visit_csv(std::istream& stream, const std::string& file, const Columns& col
   CsvReader reader(stream);
   std::optional<Layout> layout = layout_by_number(columns);
   while (const std::optional<CsvRecord> record = reader.next()) {
-    if (!layout) {
-      if (!record->fault.empty())
-        throw Error(file + ":" + std::to_string(record->line), record->fault, "give a header line");
-      layout = layout_by_header(*record, file, columns);
-      continue;
-    }
     try {
+      if (!layout) {
+        layout = layout_by_header(*record, file, columns);
+        continue;
+      }
       visit(feature_of(*record, *layout), record->line);
     } catch (const Fault& fault) {
+      if (!layout) throw Error(file + ":" + std::to_string(record->line), fault.why, "give a header line");
       refuse({record->line, fault.why});
     }
   }

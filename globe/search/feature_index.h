@@ -33,6 +33,8 @@ struct Hit {
   double distance_m = 0;  ///< from `near` to there, geodesic on the database's ellipsoid; without it 0
 };
 
+struct OpenDatabase;
+
 /// A database of features, open for questions. One thread at a time.
 class FeatureIndex {
  public:
@@ -59,10 +61,7 @@ class FeatureIndex {
   FoundFeature read(const Hit& hit);
 
  private:
-  class Search;
-  struct Parts;
-
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<OpenDatabase> database_;
 };
 
 }  // namespace globe::search

@@ -16,8 +16,8 @@ namespace globe::search {
 /// Writes a database of features (schema.h): all of it or nothing.
 ///
 /// Features are staged in a temporary file, in the order in which they come; finish() puts them into the
-/// order of their HTM ids by SQLite's external sort. Memory: about 200 MB, whatever their number. Disk: twice
-/// the database's size, in its folder. The file takes its name when it is complete and on the disk.
+/// order of their HTM ids by SQLite's external sort. Memory: below 300 MB, whatever their number. Disk: three
+/// times the database's size, in its folder. The file takes its name when it is complete and on the disk.
 class IndexWriter {
  public:
   /// Throws Error when the file exists and `overwrite` is false, or cannot be written.

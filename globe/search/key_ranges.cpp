@@ -8,12 +8,12 @@ namespace globe::search {
 
 using htm::IdRange;
 
-std::vector<IdRange> key_ranges(const htm::Region& region) {
-  constexpr std::size_t kRanges = 32;
+std::vector<IdRange> key_ranges(const htm::Region& region, bool by_inside) {
+  constexpr std::size_t kRanges = 24;
   std::vector<IdRange> ranges;
   int level = 0;
   for (; level <= kIndexLevel; ++level) {
-    ranges = htm::cover(region, {level, false, 0, true});
+    ranges = htm::cover(region, {level, false, 0, by_inside});
     if (ranges.size() >= kRanges || level == kIndexLevel) break;
   }
   const int shift = 2 * (kIndexLevel - level);

@@ -10,11 +10,12 @@
 
 namespace globe::search {
 
-/// Ranges of level-20 ids that hold a region, sorted and disjoint; those wholly in it are marked `inside`.
+/// Ranges of level-20 ids that hold a region, sorted and disjoint.
 ///
-/// From the coarsest level that makes kRanges of them, so that a search makes few jumps and looks at few
+/// From the coarsest level that makes two dozen of them, so that a search makes few jumps and looks at few
 /// features in vain.
-std::vector<htm::IdRange> key_ranges(const htm::Region& region);
+/// @param by_inside  whether ranges wholly in the region are kept apart from others, and marked `inside`
+std::vector<htm::IdRange> key_ranges(const htm::Region& region, bool by_inside);
 
 /// What is in both of two lists of ranges; inside if inside in both.
 std::vector<htm::IdRange> intersection(std::span<const htm::IdRange> a, std::span<const htm::IdRange> b);

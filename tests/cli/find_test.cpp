@@ -2,6 +2,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -168,6 +169,31 @@ TEST_F(FindCommand, ReadsGeoJsonAndNumbersFeaturesThroughAllFiles) {
   EXPECT_EQ(ids({"--where", "n=1.5"}), (Ids{8}));
   EXPECT_EQ(
       json::parse(find({"--near", "51,15", "--count", "1", "--json"}).out)["properties"]["deep"]["a"][1], 2);
+}
+
+TEST_F(FindCommand, FindsLinesAndPolygonsThatARegionTouches) {
+  const auto feature = [](const std::string& name, const std::string& type, const std::string& coordinates) {
+    return R"({"type":"Feature","properties":{"name":")" + name + R"("},"geometry":{"type":")" + type +
+           R"(","coordinates":)" + coordinates + "}}";
+  };
+  const Outcome run =
+      index("a.geojson", R"({"type":"FeatureCollection","features":[)" +
+                             feature("land", "Polygon", "[[[0,0],[10,0],[10,10],[0,10],[0,0]]]") + "," +
+                             feature("road", "LineString", "[[178,0],[-178,0]]") + "," +
+                             feature("bow", "Polygon", "[[[0,0],[10,10],[10,0],[0,10],[0,0]]]") + "," +
+                             feature("isles", "MultiPoint", "[[50,50],[60,60]]") + "]}");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("feature 3: polygon: the edge from corner 1 crosses"), std::string::npos) << run.err;
+  EXPECT_EQ(ids({"--near", "5,5", "--radius", "1m"}), (Ids{1}));
+  EXPECT_EQ(ids({"--box", "179,-1,181,1"}), (Ids{2}));
+  EXPECT_EQ(ids({"--cone", "60,60,1m"}), (Ids{3}));
+  EXPECT_EQ(ids({"--name", "LAND", "--box", "4,4,6,6"}), (Ids{1}));
+  const json road = json::parse(find({"--near", "1,180", "--count", "1", "--json"}).out);
+  EXPECT_EQ(road["name"], "road");
+  EXPECT_NEAR(road["lat"].get<double>(), 0.0, 1e-9);
+  EXPECT_NEAR(std::abs(road["lon"].get<double>()), 180.0, 1e-9);
+  // A degree of the meridian from the equator.
+  EXPECT_NEAR(road["distance_m"].get<double>(), 110574.389, 0.001);
 }
 
 TEST_F(FindCommand, MeasuresOnTheEllipsoidOfTheDatabase) {

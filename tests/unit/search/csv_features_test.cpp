@@ -49,6 +49,8 @@ TEST(CsvFeatures, TakesTheColumnsThatAreNamedOrNumbered) {
   EXPECT_THROW(read(text, {"phi", "mu", ""}), Error);
   EXPECT_THROW(read("a,b\n1,2\n"), Error);
   EXPECT_THROW(read(""), Error);
+  EXPECT_THROW(read("lat,lon,\xff\n1,2,3\n"), Error);
+  EXPECT_THROW(read("lat,lon,a\"b\n1,2,3\n"), Error);
 }
 
 TEST(CsvFeatures, OtherColumnsArePropertiesAsTheyStand) {
