@@ -19,6 +19,7 @@ void add_commands(CLI::App& program, int& exit_status) {
   add_height(program, exit_status);
   add_distance(program, exit_status);
   add_profile(program);
+  add_sight(program, exit_status);
 }
 
 std::vector<std::string> arguments(int argc, const char* const* argv) {
