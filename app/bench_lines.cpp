@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -6,11 +7,13 @@
 
 #include "app/bench.h"
 #include "globe/geo/geodesic.h"
+#include "globe/planet/sight.h"
 
 namespace app {
 namespace {
 
 using globe::geo::Geodetic;
+using globe::planet::Surface;
 
 using Pairs = std::vector<std::pair<Geodetic, Geodetic>>;
 
@@ -37,8 +40,27 @@ Benchmark distance_benchmark() {
           }};
 }
 
+/// Eyes 2 m above the built-in planet's ground, a tenth of a degree to three degrees apart.
+Benchmark sight_benchmark() {
+  constexpr std::size_t kPairs = 100;
+  const std::shared_ptr<const Surface> surface = Surface::builtin(1);
+  const int level = surface->data_level();
+  Pairs pairs = random_pairs(kPairs);
+  for (std::size_t k = 0; k < kPairs; ++k) {
+    auto& [a, b] = pairs[k];
+    b = {std::clamp(a.lat_deg + 0.1 + 0.02 * static_cast<double>(k), -90.0, 90.0), a.lon_deg + 0.5};
+    for (Geodetic* eye : {&a, &b}) eye->h_m = globe::planet::sight_ground(*surface, *eye, level) + 2.0;
+  }
+  return {"planet.sight", kPairs, [pairs, surface, level, seen = std::make_shared<int>(0)] {
+            for (const auto& [a, b] : pairs)
+              *seen += globe::planet::sight(*surface, a, b, {level, 0.13}).visible;
+          }};
+}
+
 }  // namespace
 
-std::vector<BenchmarkEntry> line_benchmarks() { return {{"geo.distance", distance_benchmark}}; }
+std::vector<BenchmarkEntry> line_benchmarks() {
+  return {{"geo.distance", distance_benchmark}, {"planet.sight", sight_benchmark}};
+}
 
 }  // namespace app

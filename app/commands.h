@@ -16,6 +16,7 @@ void add_height(CLI::App& program, int& exit_status);
 void add_trixel(CLI::App& program, int& exit_status);
 void add_distance(CLI::App& program, int& exit_status);
 void add_index(CLI::App& program, int& exit_status);
+void add_sight(CLI::App& program, int& exit_status);
 
 /// The words after the program's name, last first, as CLI::App::parse takes them. A word such as "-.5,12",
 /// which CLI11 would take for an option (it knows a minus and a digit), becomes "-0.5,12".
