@@ -84,6 +84,8 @@ class Surface {
   double height_at_hand(const dvec3& u, int level) const;
 
   const PlanetInfo& info() const { return info_; }
+  /// What the planet was made from; null for the built-in planet.
+  const Dataset* dataset() const { return dataset_.get(); }
   const geo::Ellipsoid& ellipsoid() const { return info_.ellipsoid; }
   /// Finest level with measured heights (built-in planet: with its own function); what is finer is
   /// synthesised.
@@ -96,6 +98,8 @@ class Surface {
   /// True when ground below height 0 lies under a sea, which is then drawn as a flat surface at height 0.
   bool is_airless() const { return info_.body == "moon"; }
   bool has_sea() const { return dataset_ == nullptr || info_.body == "earth"; }
+  /// Height at which ground of a height is drawn: at 0 where it lies under a sea.
+  double drawn_height(double height_m) const { return has_sea() && height_m < 0.0 ? 0.0 : height_m; }
   /// Length of a level-0 edge along the mean sphere, metres; a level-L edge is about 2^-L of it.
   double root_edge() const;
 
