@@ -30,5 +30,6 @@ void add_find(CLI::App& program);
 void add_fly(CLI::App& program);
 void add_profile(CLI::App& program);
 void add_shot(CLI::App& program);
+void add_summary(CLI::App& program);
 
 }  // namespace app

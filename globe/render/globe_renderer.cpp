@@ -67,7 +67,7 @@ double GlobeRenderer::height_above_ground(const glm::dvec3& position, bool wait)
   const glm::dvec3 u = geo::normal_from_degrees(place.lat_deg, place.lon_deg);
   const auto drawn = [&](int level) {
     const double h = wait ? surface_->height(u, level) : surface_->height_at_hand(u, level);
-    return place.h_m - (surface_->has_sea() ? std::max(h, 0.0) : h);
+    return place.h_m - surface_->drawn_height(h);
   };
   double above = drawn(settings_.clipmap.base_level);
   for (int k = 0; k < 3; ++k) {
