@@ -166,6 +166,8 @@ void add_find(CLI::App& program) {
       "Distances are geodesics on the database's ellipsoid. With --near the nearest come first, else the "
       "order\n"
       "is that of ids, which are the features' numbers in the order of their files.\n"
+      "A region has the lines and polygons that it touches. Their distance, LAT and LON are those of their\n"
+      "nearest place (without --near LAT and LON are any place); their edges are great circles.\n"
       "Example: globe find places.db --near 48.2,16.37 --radius 50km --where capital=yes --json");
   command->callback([options] { run(*options); });
 }

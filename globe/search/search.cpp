@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -43,19 +44,16 @@ Search::Search(OpenDatabase& database, const Query& query)
       hits_(query.count) {}
 
 std::vector<Hit> Search::run() {
-  for (const auto& region : query_.regions) {
-    const Ranges ranges = key_ranges(*region, true);
-    ranges_ = ranges_ ? intersection(*ranges_, ranges) : ranges;
-  }
+  for (const auto& region : query_.regions) ranges_.push_back(key_ranges(*region, true));
   const bool k_nearest = query_.near && query_.count;
-  const bool found_by_name = !folded_prefix_.empty() && by_name(ranges_ || radius_m_ || k_nearest);
+  const bool found_by_name = !folded_prefix_.empty() && by_name(!ranges_.empty() || radius_m_ || k_nearest);
   if (found_by_name) return std::move(hits_).sorted();
   if (k_nearest) {
     nearest();
   } else if (radius_m_) {
     within_radius();
-  } else if (ranges_) {
-    by_ranges(*ranges_);
+  } else if (!ranges_.empty()) {
+    by_ranges(ranges_);
   } else {
     everywhere();
   }
@@ -145,12 +143,20 @@ void Search::everywhere() {
     if (const std::optional<Hit> hit = passing_shape(shapes)) hits_.add(*hit);
 }
 
-void Search::by_ranges(const Ranges& ranges) {
-  for (const htm::IdRange& range : ranges) {
+void Search::by_ranges(const std::vector<Ranges>& lists) {
+  Ranges common = lists.front();
+  for (std::size_t k = 1; k < lists.size(); ++k) common = intersection(common, lists[k]);
+  for (const htm::IdRange& range : common) {
     Statement& points = database_.points_between.with(range.first, range.last);
     while (points.step()) consider_point(points, range.inside);
   }
-  for (const std::int64_t id : shapes_in(ranges)) consider_shape(id);
+  std::vector<std::int64_t> shapes = shapes_in(lists.front());
+  for (std::size_t k = 1; k < lists.size() && !shapes.empty(); ++k) {
+    std::vector<std::int64_t> both;
+    std::ranges::set_intersection(shapes, shapes_in(lists[k]), std::back_inserter(both));
+    shapes = std::move(both);
+  }
+  for (const std::int64_t id : shapes) consider_shape(id);
 }
 
 std::vector<std::int64_t> Search::shapes_in(const Ranges& ranges) const {
@@ -173,7 +179,9 @@ void Search::within_radius() {
   Ranges around = key_ranges(cone, false);
   // The distance is measured anyway: what else there is to test is up to the regions.
   for (htm::IdRange& range : around) range.inside = true;
-  by_ranges(ranges_ ? intersection(*ranges_, around) : around);
+  std::vector<Ranges> lists = ranges_;
+  lists.push_back(std::move(around));
+  by_ranges(lists);
 }
 
 bool Search::by_name(bool other_way) {

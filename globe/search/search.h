@@ -38,7 +38,8 @@ class Search {
 
   // The ways to candidates.
   void everywhere();
-  void by_ranges(const Ranges& ranges);
+  /// Points in all of the lists of ranges, shapes with a part in each: not always the same part.
+  void by_ranges(const std::vector<Ranges>& lists);
   /// Everything within radius_m_.
   void within_radius();
   /// By the names, if they are few or there is no other way; false if they are many.
@@ -56,7 +57,7 @@ class Search {
   std::string folded_prefix_;
   htm::dvec3 near_normal_;          ///< where distances are measured from, if they are
   std::optional<double> radius_m_;  ///< within which features pass: as asked, or a ring
-  std::optional<Ranges> ranges_;    ///< of the regions
+  std::vector<Ranges> ranges_;      ///< of each region
   HitList hits_;
 };
 
