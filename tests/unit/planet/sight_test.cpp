@@ -226,7 +226,7 @@ TEST(Sight, AgreesWithDenseSamples) {
       std::mt19937_64 random(static_cast<std::uint64_t>(level));
       int visible = 0;
       constexpr int kSamples = 3000;
-      const int looks = std::getenv("GLOBE_TEST_FULL") != nullptr ? 1000 : 60;
+      const int looks = std::getenv("GLOBE_TEST_FULL") != nullptr ? 400 : 60;
       for (int k = 0; k < looks; ++k) {
         const Look look = any_look(surface, random, level);
         const SightSettings settings{level, k % 2 == 0 ? 0.0 : 0.13};
