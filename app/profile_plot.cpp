@@ -65,7 +65,7 @@ std::string mark(const ProfileSample& sample, std::string_view name, double leng
   const bool below = sample.height_m < 0.0 && metres != "0";
   const std::string text = std::string(name) + (below ? " −" : " ") + metres + " m";
   return "set label at " + km + number_text(sample.height_m, 3) +
-         " front point pt 7 ps 0.9 lc rgb '#7a1f1f'\nset label " + literal(text) + " at " + km +
+         " front point pt 7 ps dot lc rgb '#7a1f1f'\nset label " + literal(text) + " at " + km +
          number_text(text_m, 3) + " " + side + " offset 0," + (above ? "0.9" : "-0.9") +
          " front font ',13' tc rgb '#7a1f1f'\n";
 }
@@ -79,11 +79,14 @@ std::string script(Samples samples, const ProfilePlot& plot, const std::filesyst
   std::string text;
   const auto line = [&](const std::string& command) { text += command + '\n'; };
   const std::string size = std::to_string(kPlotWidth) + "," + std::to_string(kPlotHeight);
-  if (output.extension() == ".svg") {
-    line("set terminal svg size " + size + " noenhanced font 'DejaVu Sans,15' background rgb 'white'");
+  const bool svg = output.extension() == ".svg";
+  if (svg) {  // its points are pixels, a PNG's are larger
+    line("set terminal svg size " + size +
+         " noenhanced font 'DejaVu Sans,13' fontscale 1.35 background rgb 'white'");
   } else {
     line("set terminal pngcairo size " + size + " noenhanced font 'DejaVu Sans,13' background rgb 'white'");
   }
+  line(svg ? "dot = 0.5" : "dot = 0.9");
   line("set encoding utf8; set minussign");
   line("set output " + literal(output.string()));
   line("set lmargin at screen " + number_text(kLeft, 3) + "; set rmargin at screen " +
