@@ -18,8 +18,11 @@ void add_commands(CLI::App& program, int& exit_status) {
   add_trixel(program, exit_status);
   add_height(program, exit_status);
   add_distance(program, exit_status);
+  add_index(program, exit_status);
+  add_find(program);
   add_profile(program);
   add_sight(program, exit_status);
+  add_summary(program);
 }
 
 std::vector<std::string> arguments(int argc, const char* const* argv) {

@@ -15,6 +15,7 @@ void add_lookup(CLI::App& program, int& exit_status);
 void add_height(CLI::App& program, int& exit_status);
 void add_trixel(CLI::App& program, int& exit_status);
 void add_distance(CLI::App& program, int& exit_status);
+void add_index(CLI::App& program, int& exit_status);
 void add_sight(CLI::App& program, int& exit_status);
 
 /// The words after the program's name, last first, as CLI::App::parse takes them. A word such as "-.5,12",
@@ -25,8 +26,10 @@ std::string version();
 
 void add_bench(CLI::App& program);
 void add_cover(CLI::App& program);
+void add_find(CLI::App& program);
 void add_fly(CLI::App& program);
 void add_profile(CLI::App& program);
 void add_shot(CLI::App& program);
+void add_summary(CLI::App& program);
 
 }  // namespace app

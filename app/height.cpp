@@ -1,29 +1,29 @@
-#include <map>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/interpolation_option.h"
 #include "app/planet_argument.h"
 #include "app/point.h"
 #include "app/records.h"
 #include "globe/base/error.h"
 #include "globe/htm/trixel.h"
+#include "globe/planet/drawn_ground.h"
 #include "globe/planet/interpolation.h"
 
 namespace app {
 namespace {
 
 using globe::planet::Interpolation;
-
-const std::map<std::string, Interpolation> kInterpolations{{"nearest", Interpolation::kNearest},
-                                                           {"linear", Interpolation::kLinear},
-                                                           {"cubic", Interpolation::kCubic}};
+using globe::planet::Surface;
 
 struct HeightOptions {
   std::string planet;
   std::vector<std::string> points;
   std::optional<int> level;
-  std::string interpolation = "linear";
+  Interpolation interpolation = Interpolation::kLinear;
+  bool drawn = false;
   RecordOptions records;
 };
 
@@ -60,18 +60,32 @@ std::string json_line(const Answer& answer, const std::optional<int>& precision)
   return object.dump();
 }
 
+struct GroundHeight {
+  double height_m, error_m;
+};
+
+GroundHeight height_of(const Surface& surface, const globe::geo::dvec3& u, int level,
+                       const HeightOptions& options) {
+  const auto ground = globe::planet::height_at(surface, u, level, options.interpolation);
+  if (options.drawn) {
+    const double drawn_m = globe::planet::drawn_ground(surface, u, level).height_m;
+    return {drawn_m, std::abs(drawn_m - ground.height_m) + 0.5 * ground.spread_m};
+  }
+  const bool nearest = options.interpolation == Interpolation::kNearest;
+  return {ground.height_m, nearest ? ground.spread_m : 0.5 * ground.spread_m};
+}
+
 int run(const HeightOptions& options) {
   const auto surface = open_planet(options.planet);
   require_heights(*surface, options.planet);
   warn_of_unknown_datum(*surface, options.planet);
-  const Interpolation interpolation = kInterpolations.at(options.interpolation);
   const int level = options.level.value_or(surface->data_level());
   const bool measured = surface->has_data() && level <= surface->data_level();
   const auto& precision = options.records.precision;
   const auto answer = [&](const std::string& record) {
     const auto at = parse_point(record).position;
     const auto u = globe::geo::normal_from_degrees(at.lat_deg, at.lon_deg);
-    const auto height = globe::planet::height_at(*surface, u, level, interpolation);
+    const GroundHeight height = height_of(*surface, u, level, options);
     Answer result{shown(at.lat_deg, precision),
                   shown_longitude(at.lon_deg, precision),
                   level,
@@ -79,8 +93,7 @@ int run(const HeightOptions& options) {
                   measured ? "data" : "synthesised",
                   std::nullopt,
                   surface->info().vertical_datum};
-    if (measured)
-      result.error_m = interpolation == Interpolation::kNearest ? height.spread_m : 0.5 * height.spread_m;
+    if (measured) result.error_m = height.error_m;
     if (options.records.json) return json_line(result, precision);
     return options.records.csv ? fields(result, precision, ',', "") : fields(result, precision, ' ', "-");
   };
@@ -101,18 +114,19 @@ void add_height(CLI::App& program, int& exit_status) {
       ->add_option("--level", options->level,
                    "HTM level (default: the data at their finest; procedural: the level of its own relief)")
       ->check(CLI::Range(0, globe::htm::kMaxLevel));
+  CLI::Option* interpolation = add_interpolation_option(*command, options->interpolation);
   command
-      ->add_option("--interpolation", options->interpolation,
-                   "between the nodes; cubic is clamped to the range of the nodes it is made of")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"nearest", "linear", "cubic"}));
+      ->add_flag("--drawn", options->drawn,
+                 "of the flat trixel that is drawn, where the normal of the place meets it; the sea at 0")
+      ->excludes(interpolation);
   add_record_options(*command, options->records);
   command->footer(
       "Text: LAT LON LEVEL HEIGHT_M SOURCE ERROR_M DATUM.  An ALT is not looked at.\n"
       "SOURCE is data, or synthesised: levels finer than the data add made-up detail, and procedural has no\n"
       "data at all.  ERROR_M tells how well the samples bound the ground between them: half the difference\n"
-      "between the highest and the lowest corner of the trixel (all of it for nearest).  It says nothing of\n"
-      "errors in the map itself; - (null) where the ground is synthesised.\n"
+      "between the highest and the lowest corner of the trixel (all of it for nearest); with --drawn\n"
+      "also how far the flat trixel lies from the ground between its corners.  It says nothing of errors in\n"
+      "the map itself; - (null) where the ground is synthesised.\n"
       "Example: globe height my-planet --json \"27.99 86.92\"");
   command->callback([options, &exit_status] { exit_status = run(*options); });
 }

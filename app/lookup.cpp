@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/interpolation_option.h"
 #include "app/planet_argument.h"
 #include "app/point.h"
 #include "app/records.h"
+#include "globe/base/error.h"
 #include "globe/geo/ellipsoid.h"
 #include "globe/htm/trixel.h"
 #include "globe/planet/cell.h"
@@ -17,9 +19,13 @@ namespace {
 
 constexpr int kDefaultLevel = 20;
 
+using globe::planet::Interpolation;
+
 struct Lookup {
   std::vector<std::string> operands;
   std::optional<int> level;
+  Interpolation interpolation = Interpolation::kLinear;
+  bool interpolates = false;  ///< whether --interpolation is given
   RecordOptions records;
 };
 
@@ -28,13 +34,13 @@ struct Place {
   double lat_deg, lon_deg;
   globe::htm::Trixel trixel;
   globe::planet::Cell cell;
-  std::optional<double> height_m;  ///< with a PLANET: its data at their finest, linear in the trixel
+  std::optional<double> height_m;  ///< with a PLANET: of its data at their finest
   globe::geo::dvec3 ecef_m;
 };
 
 /// @param surface  null without a PLANET
 Place place_of(const Point& point, int level, const globe::planet::Surface* surface,
-               const std::optional<int>& precision) {
+               Interpolation interpolation, const std::optional<int>& precision) {
   const auto& at = point.position;
   const auto u = globe::geo::normal_from_degrees(at.lat_deg, at.lon_deg);
   const auto trixel = globe::htm::trixel_at(u, level);
@@ -46,8 +52,7 @@ Place place_of(const Point& point, int level, const globe::planet::Surface* surf
               std::nullopt,
               globe::geo::ecef_from_normal(ellipsoid, u, at.h_m)};
   if (surface) {
-    place.height_m =
-        height_at(*surface, u, surface->data_level(), globe::planet::Interpolation::kLinear).height_m;
+    place.height_m = height_at(*surface, u, surface->data_level(), interpolation).height_m;
   }
   return place;
 }
@@ -114,13 +119,16 @@ int run(Lookup lookup) {
     surface = open_planet(*planet);
     require_heights(*surface, *planet);
     warn_of_unknown_datum(*surface, *planet);
+  } else if (lookup.interpolates) {
+    throw globe::UsageError("--interpolation", "without a PLANET there are no heights",
+                            "give a PLANET before the points");
   }
   const RecordOptions& records = lookup.records;
   const int level = lookup.level.value_or(surface ? surface->data_level() : kDefaultLevel);
   const auto& ellipsoid = surface ? surface->ellipsoid() : globe::geo::kWgs84;
   const auto answer = [&](const std::string& record) {
     const Point point = parse_point(record);
-    const Place place = place_of(point, level, surface.get(), records.precision);
+    const Place place = place_of(point, level, surface.get(), lookup.interpolation, records.precision);
     if (records.json) return json_line(place, grid_names(point, ellipsoid), records.precision);
     if (records.csv) return csv_line(place, grid_names(point, ellipsoid), records.precision);
     return text_line(place, records.precision);
@@ -140,12 +148,17 @@ void add_lookup(CLI::App& program, int& exit_status) {
       "[PLANET] and points, \"LAT LON\" or LAT,LON each; without points: one a line from standard input");
   command->add_option("--level", lookup->level, "HTM level (default: the planet's, else 20)")
       ->check(CLI::Range(0, globe::htm::kMaxLevel));
+  CLI::Option* interpolation = add_interpolation_option(*command, lookup->interpolation);
   add_record_options(*command, lookup->records);
   command->footer(
       "Text: LAT LON LEVEL ID NAME DIAMOND I J, with a PLANET also HEIGHT_M, that of globe height without\n"
-      "--level. ECEF is on the planet's ellipsoid (WGS84 without one), at the point's ALT or 0.\n"
+      "--level, whichever level the trixel is of. ECEF is on the planet's ellipsoid (WGS84 without one), at "
+      "the point's ALT or 0.\n"
       "Example: globe lookup --level 14 \"50.0875 14.4213\"");
-  command->callback([lookup, &exit_status] { exit_status = run(*lookup); });
+  command->callback([lookup, interpolation, &exit_status] {
+    lookup->interpolates = interpolation->count() > 0;
+    exit_status = run(*lookup);
+  });
 }
 
 }  // namespace app

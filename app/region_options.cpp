@@ -38,40 +38,6 @@ struct AngleUnit {
 constexpr std::array<AngleUnit, 3> kAngleUnits{
     {{"deg", 1.0}, {"arcmin", 1.0 / 60.0}, {"arcsec", 1.0 / 3600.0}}};
 
-struct Radius {
-  double value;  ///< metres or degrees
-  bool is_angle;
-};
-
-Radius parse_radius(const std::string& text) {
-  Radius radius{};
-  const std::size_t digits = text.find_last_of("0123456789.") + 1;
-  const std::size_t letters = text.find_first_not_of(' ', digits);
-  const std::string_view unit = letters == std::string::npos ? "" : std::string_view(text).substr(letters);
-  const auto angle = std::find_if(kAngleUnits.begin(), kAngleUnits.end(),
-                                  [&](const AngleUnit& known) { return known.name == unit; });
-  if (angle != kAngleUnits.end()) {
-    const auto number = parse_number(text.substr(0, digits));
-    if (!number) throw UsageError("--cone", "the radius '" + text + "' is not a number", kHowToCone);
-    radius = {*number * angle->degrees, true};
-  } else {
-    try {
-      radius = {parse_length_m(text), false};
-    } catch (const UsageError&) {
-      throw UsageError(
-          "--cone", "the radius '" + text + "' is not a number of m, km, ft, mi, nmi, deg, arcmin or arcsec",
-          kHowToCone);
-    }
-  }
-  if (!std::isfinite(radius.value) || radius.value < 0.0 || (radius.is_angle && radius.value > 180.0)) {
-    throw UsageError(
-        "--cone",
-        "the radius '" + text + "' is not in 0 to " + (radius.is_angle ? "180 degrees" : "half the globe"),
-        kHowToCone);
-  }
-  return radius;
-}
-
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t");
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
@@ -95,7 +61,7 @@ std::pair<std::string, std::string> point_and_radius(const std::string& text) {
 RegionPointer make_cone(const RegionOptions& options, const Ellipsoid& ellipsoid) {
   const auto [place, radius_text] = point_and_radius(options.cone);
   const Geodetic at = parse_point(place).position;
-  const Radius radius = parse_radius(radius_text);
+  const Radius radius = parse_radius("--cone", radius_text, kHowToCone);
   const auto center = globe::geo::normal_from_degrees(at.lat_deg, at.lon_deg);
   if (radius.is_angle) return std::make_shared<globe::htm::Cone>(center, radius.value);
   if (ellipsoid.f != 0.0) return std::make_shared<globe::region::EllipsoidCone>(ellipsoid, at, radius.value);
@@ -204,6 +170,35 @@ RegionPointer make_box(const RegionOptions& options) {
 }
 
 }  // namespace
+
+Radius parse_radius(const std::string& option, const std::string& text, const std::string& how_to) {
+  Radius radius{};
+  const std::size_t digits = text.find_last_of("0123456789.") + 1;
+  const std::size_t letters = text.find_first_not_of(' ', digits);
+  const std::string_view unit = letters == std::string::npos ? "" : std::string_view(text).substr(letters);
+  const auto angle = std::find_if(kAngleUnits.begin(), kAngleUnits.end(),
+                                  [&](const AngleUnit& known) { return known.name == unit; });
+  if (angle != kAngleUnits.end()) {
+    const auto number = parse_number(text.substr(0, digits));
+    if (!number) throw UsageError(option, "the radius '" + text + "' is not a number", how_to);
+    radius = {*number * angle->degrees, true};
+  } else {
+    try {
+      radius = {parse_length_m(text), false};
+    } catch (const UsageError&) {
+      throw UsageError(
+          option, "the radius '" + text + "' is not a number of m, km, ft, mi, nmi, deg, arcmin or arcsec",
+          how_to);
+    }
+  }
+  if (!std::isfinite(radius.value) || radius.value < 0.0 || (radius.is_angle && radius.value > 180.0)) {
+    throw UsageError(
+        option,
+        "the radius '" + text + "' is not in 0 to " + (radius.is_angle ? "180 degrees" : "half the globe"),
+        how_to);
+  }
+  return radius;
+}
 
 void add_region_options(CLI::App& command, RegionOptions& options) {
   CLI::Option* cone = command.add_option("--cone", options.cone,

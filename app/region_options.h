@@ -26,6 +26,18 @@ struct RegionOptions {
 /// command.
 void add_region_options(CLI::App& command, RegionOptions& options);
 
+/// A RADIUS as it is written.
+struct Radius {
+  double value = 0;       ///< metres, or degrees; at least 0, of degrees at most 180
+  bool is_angle = false;  ///< degrees between normals; else metres on the ellipsoid
+};
+
+/// Reads a RADIUS in m (also without a unit), km, ft, mi, nmi, deg, arcmin or arcsec.
+/// @param option  for messages, such as --cone
+/// @param how_to  what to do about a radius that is none
+/// Throws globe::UsageError.
+Radius parse_radius(const std::string& option, const std::string& text, const std::string& how_to);
+
 /// The region that the options name. A RADIUS with a length unit, or with none, is a geodesic distance on
 /// this ellipsoid (none: metres); with an angle unit it is measured on the sphere of normals.
 /// REQUIRES: options.any(). Throws globe::UsageError for what cannot be understood, globe::Error for a file

@@ -1,8 +1,13 @@
-# Flags every target of ours is built with. -ffp-contract=off keeps the geometry the same on every machine:
-# a fused multiply-add rounds differently from the two operations it replaces (HARD-CASES H5, H8).
+# What everyone needs who includes our headers. -ffp-contract=off keeps the geometry the same on every machine: a fused
+# multiply-add rounds differently from the two operations it replaces (HARD-CASES H5, H8).
+add_library(globe_headers INTERFACE)
+target_include_directories(globe_headers INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(globe_headers INTERFACE -ffp-contract=off)
+
+# Flags every target of ours is built with.
 add_library(globe_flags INTERFACE)
-target_include_directories(globe_flags INTERFACE ${PROJECT_SOURCE_DIR})
-target_compile_options(globe_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -ffp-contract=off)
+target_link_libraries(globe_flags INTERFACE globe_headers)
+target_compile_options(globe_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 warns of overlaps inside std::string's operator+ that cannot happen (GCC bug 105651).
   target_compile_options(globe_flags INTERFACE -Wno-restrict)
@@ -24,5 +29,5 @@ function(globe_library name)
   cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(${name} STATIC ${sources})
-  target_link_libraries(${name} PUBLIC globe_flags ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  target_link_libraries(${name} PUBLIC globe_headers ${arg_PUBLIC} PRIVATE globe_flags ${arg_PRIVATE})
 endfunction()

@@ -215,8 +215,9 @@ NodeGrid<std::uint8_t> sample_colors(const SourceMap& source, const PlannedMap& 
 
 /// The layers of one map, written into the folder. Reading stays outside the arena: OpenImageIO has threads
 /// of its own, which do not go well with tasks that wait.
-std::vector<globe::planet::StoredLayer> convert_map(PlannedMap& map, tbb::task_arena& arena,
-                                                    MemoryBudget& budget, const Report& report) {
+std::vector<globe::planet::StoredLayer> convert_map(PlannedMap& map, const Ellipsoid& ellipsoid,
+                                                    tbb::task_arena& arena, MemoryBudget& budget,
+                                                    const Report& report) {
   std::optional<SourceMap> source = load(map, budget, report);
   std::vector<globe::planet::StoredLayer> stored;
   arena.execute([&] {
@@ -224,7 +225,7 @@ std::vector<globe::planet::StoredLayer> convert_map(PlannedMap& map, tbb::task_a
     if (map.rule.kind == MapKind::kHeights) {
       NodeGrid<float> heights = sample_heights(*source, map, budget, report);
       source.reset();
-      layers = height_layers(std::move(heights), budget);
+      layers = height_layers(std::move(heights), ellipsoid, budget);
     } else {
       NodeGrid<std::uint8_t> colors = sample_colors(*source, map, budget, report);
       source.reset();
@@ -289,7 +290,7 @@ void convert(const ConvertOptions& options, const ConvertListener& listener) {
   tbb::task_arena arena(threads);
   for (std::optional<PlannedMap>* map : {&heights, &colors}) {
     if (!*map) continue;
-    append(file.layers, convert_map(**map, arena, budget, report));
+    append(file.layers, convert_map(**map, ellipsoid, arena, budget, report));
     file.info.credits.push_back(credit_of(**map));
   }
   file.info.credits.push_back("converted by " + options.program_version);

@@ -8,15 +8,12 @@
 
 #include "converters/pyramid.h"
 #include "globe/planet/layer_file.h"
+#include "globe/planet/mean_height.h"
 
 namespace converters {
 namespace {
 
 using globe::planet::kDiamonds;
-
-/// The finest blocks of "height_range" are 8 x 8 cells: two numbers a block make the layer small beside the
-/// heights.
-constexpr int kRangeLevelsAbove = 3;
 
 void write_file(const LayerOutput& layer, int d, const std::filesystem::path& path,
                 const std::function<void(int rows)>& written) {
@@ -48,21 +45,28 @@ double samples_of(const globe::planet::StoredLayer& layer) {
 
 }  // namespace
 
-std::vector<LayerOutput> height_layers(NodeGrid<float> heights, MemoryBudget& budget) {
+std::vector<LayerOutput> height_layers(NodeGrid<float> heights, const globe::geo::Ellipsoid& ellipsoid,
+                                       MemoryBudget& budget) {
   const int level = heights.level();
   const Range all = range(heights);
-  std::vector<LayerOutput> layers(3);
+  std::vector<LayerOutput> layers(4);
   layers[0].stored = {{"height", level, 1, "float32", all.min, all.max}, level, {}};
   layers[1].stored = {{"relief", level, 1, "float32", all.min, all.max}, level - 1, {}};
-  const int range_level = std::max(0, level - kRangeLevelsAbove);
-  layers[2].stored = {{"height_range", range_level, 2, "float32", all.min, all.max}, range_level, {}};
+  const int block_level = globe::planet::block_level(level);
+  layers[2].stored = {{"height_range", block_level, 2, "float32", all.min, all.max}, block_level, {}};
+  layers[3].stored = {{"height_mean", block_level, 2, "float32", all.min, all.max}, block_level, {}};
 
   std::vector<NodeGrid<float>>& ranges = layers[2].values;
-  ranges.emplace_back(range_level, 2, budget);
+  std::vector<NodeGrid<float>>& means = layers[3].values;
+  ranges.emplace_back(block_level, 2, budget);
   range_of_heights(heights, ranges.back());
-  for (int k = range_level - 1; k >= 0; --k) {
+  means.emplace_back(block_level, 2, budget);
+  mean_of_heights(heights, ellipsoid, means.back());
+  for (int k = block_level - 1; k >= 0; --k) {
     ranges.emplace_back(k, 2, budget);
     range_of_ranges(ranges[ranges.size() - 2], ranges.back());
+    means.emplace_back(k, 2, budget);
+    mean_of_means(means[means.size() - 2], ellipsoid, means.back());
   }
   std::vector<NodeGrid<float>>& height = layers[0].values;
   std::vector<NodeGrid<float>>& relief = layers[1].values;

@@ -20,8 +20,10 @@ struct LayerOutput {
   std::vector<NodeGrid<std::uint8_t>> bytes;  ///< of uint8 layers
 };
 
-/// "height", "relief" and "height_range" of heights at their finest level.
-std::vector<LayerOutput> height_layers(NodeGrid<float> heights, MemoryBudget& budget);
+/// "height", "relief", "height_range" and "height_mean" of heights at their finest level. (The ellipsoid
+/// weighs the means.)
+std::vector<LayerOutput> height_layers(NodeGrid<float> heights, const globe::geo::Ellipsoid& ellipsoid,
+                                       MemoryBudget& budget);
 
 /// "color" of sRGB bytes at their finest level.
 LayerOutput color_layer(NodeGrid<std::uint8_t> colors, MemoryBudget& budget);

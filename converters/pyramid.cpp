@@ -9,8 +9,11 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "converters/srgb.h"
+#include "globe/planet/lattice_trixel.h"
+#include "globe/planet/mean_height.h"
 
 namespace converters {
 namespace {
@@ -69,6 +72,33 @@ void filter_border(const NodeGrid<float>& fine, const Node& coarse_node, float* 
   for (std::size_t c = 0; c < channels; ++c)
     out[c] =
         static_cast<float>((2.0 * static_cast<double>(own[c]) + sum[c]) / (2.0 + static_cast<double>(count)));
+}
+
+/// Directions of the nodes of row j.
+std::vector<globe::planet::dvec3> row_directions(int d, int level, int j) {
+  std::vector<globe::planet::dvec3> row;
+  for (int i = 0; i <= globe::planet::nodes_per_side(level); ++i)
+    row.push_back(globe::planet::node_direction({d, level, i, j}));
+  return row;
+}
+
+/// Calls mean(trixel, corners) for both halves of each cell in row j of a grid of means, and repeats the last
+/// cell.
+template <typename Mean>
+void fill_means(int d, int j, NodeGrid<float>& means, const Mean& mean) {
+  const int last = means.side() - 2;
+  const int cell_j = std::min(j, last);
+  const auto low = row_directions(d, means.level(), cell_j),
+             high = row_directions(d, means.level(), cell_j + 1);
+  for (int i = 0; i <= last; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    float* out = means.at(d, i, j);
+    out[0] = static_cast<float>(mean(globe::planet::lattice_trixel(d, means.level(), i, cell_j, 0),
+                                     globe::htm::Corners{low[k], low[k + 1], high[k]}));
+    out[1] = static_cast<float>(mean(globe::planet::lattice_trixel(d, means.level(), i, cell_j, 1),
+                                     globe::htm::Corners{high[k + 1], high[k], low[k + 1]}));
+  }
+  std::copy_n(means.at(d, last, j), 2, means.at(d, last + 1, j));
 }
 
 void include(const float* low_high, float* range) {
@@ -141,6 +171,41 @@ void range_of_ranges(const NodeGrid<float>& fine, NodeGrid<float>& coarse) {
       include(fine.at(d, i0, j0 + 1), out);
       include(fine.at(d, i0 + 1, j0 + 1), out);
     }
+  });
+}
+
+void mean_of_heights(const NodeGrid<float>& heights, const globe::geo::Ellipsoid& ellipsoid,
+                     NodeGrid<float>& means) {
+  assert(means.level() == globe::planet::block_level(heights.level()) && means.channels() == 2);
+  for_each_row(heights, means, [&](int d, int j) {
+    globe::planet::HeightBlock block;
+    block.d = d;
+    block.height_level = heights.level();
+    const int cells = block.cells();
+    block.j0 = std::min(j, means.side() - 2) * cells;
+    fill_means(d, j, means, [&](const globe::planet::LatticeTrixel& t, const globe::htm::Corners& corners) {
+      block.i0 = t.cell_i() * cells;
+      for (int y = 0; y <= cells; ++y) {
+        const float* from = heights.at(d, block.i0, block.j0 + y);
+        std::copy_n(from, cells + 1, &block.at(block.i0, block.j0 + y));
+      }
+      return globe::planet::mean_height(ellipsoid, block, t, corners);
+    });
+  });
+}
+
+void mean_of_means(const NodeGrid<float>& fine, const globe::geo::Ellipsoid& ellipsoid,
+                   NodeGrid<float>& coarse) {
+  assert(fine.level() == coarse.level() + 1 && fine.channels() == 2 && coarse.channels() == 2);
+  for_each_row(fine, coarse, [&](int d, int j) {
+    fill_means(d, j, coarse, [&](const globe::planet::LatticeTrixel& t, const globe::htm::Corners& corners) {
+      std::array<double, 4> means{};
+      const auto parts = children(t);
+      std::transform(parts.begin(), parts.end(), means.begin(), [&](const auto& part) {
+        return static_cast<double>(fine.at(d, part.cell_i(), part.cell_j())[part.half()]);
+      });
+      return globe::planet::mean_of_children(ellipsoid, corners, means);
+    });
   });
 }
 

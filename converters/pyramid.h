@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "converters/node_grid.h"
+#include "globe/geo/ellipsoid.h"
 
 namespace converters {
 
@@ -20,6 +21,15 @@ void range_of_heights(const NodeGrid<float>& heights, NodeGrid<float>& ranges);
 
 /// The same for the next coarser level of ranges.
 void range_of_ranges(const NodeGrid<float>& fine, NodeGrid<float>& coarse);
+
+/// Mean height of the two trixels of each cell of the block level, weighted by area (planet/mean_height.h).
+/// Nodes i = n or j = n repeat the last cell.
+void mean_of_heights(const NodeGrid<float>& heights, const globe::geo::Ellipsoid& ellipsoid,
+                     NodeGrid<float>& means);
+
+/// The same for the next coarser level of means.
+void mean_of_means(const NodeGrid<float>& fine, const globe::geo::Ellipsoid& ellipsoid,
+                   NodeGrid<float>& coarse);
 
 /// Linear light of sRGB bytes, and back.
 void decode_colors(const NodeGrid<std::uint8_t>& bytes, NodeGrid<float>& linear);

@@ -31,6 +31,6 @@ void main() {
     light *= view.sun.w * (cos_zenith <= bounds.y ? 1.0 : 0.0);
   }
   float beside = dot(true_direction, view.sun.xyz);
-  light += view.sun_at_eye.xyz * view.sun.w * 60.0 * smoothstep(kCosSunRadius - 4e-6, kCosSunRadius + 4e-6, beside);
+  light += view.sun_at_eye.xyz * view.sun.w * 60.0 * smoothstep(kCosSunRadius, kCosSunRadius + 4e-6, beside);
   color = vec4(tone_mapped(light * view.rounding.w), 1.0);
 }

@@ -29,11 +29,6 @@ std::size_t at(const NodeRect& rect, int i, int j) {
          static_cast<std::size_t>(i - rect.i0);
 }
 
-/// Height at which ground is drawn: the sea's surface where it lies under one.
-double drawn_height(const Surface& surface, double solid) {
-  return surface.has_sea() ? std::max(solid, 0.0) : solid;
-}
-
 /// Positions of a rectangle of nodes, ECEF metres from the anchor in double, with the drawn height in w.
 struct PositionGrid {
   NodeRect rect;
@@ -55,7 +50,7 @@ PositionGrid exact_positions(const Surface& surface, int level, int d, const Nod
           intersect(rect, {id.first_i(), id.first_i() + cells, id.first_j(), id.first_j() + cells});
       for (int j = part.j0; j <= part.j1; ++j) {
         for (int i = part.i0; i <= part.i1; ++i) {
-          const double h = drawn_height(surface, tile->height.at(i, j));
+          const double h = surface.drawn_height(tile->height.at(i, j));
           const dvec3& u = directions.at(i, j);
           grid.values[at(rect, i, j)] =
               glm::dvec4(geo::ecef_from_normal(surface.ellipsoid(), u, h) - anchor, h);
@@ -189,7 +184,7 @@ dvec3 level_anchor(const Settings& settings, const Surface& surface, const Regio
     return dvec3(0.0);  // the whole sphere: its centre
   }
   return geo::ecef_from_normal(surface.ellipsoid(), planet::node_direction(node),
-                               drawn_height(surface, surface.height(node)));
+                               surface.drawn_height(surface.height(node)));
 }
 
 std::vector<NodeRect> difference(const NodeRect& wanted, const NodeRect& held) {

@@ -1,5 +1,6 @@
 #include "globe/geo/area.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -23,19 +24,47 @@ struct Flat {
   dvec3 corner, s, t;
 };
 
-/// The integral of |x|^-3 (1 - e² x_z² / |x|²)^-2 over a flat triangle, in units of the parallelogram s, t:
-/// the triangle is a square with one side shrunk to the corner.
+/// |x|^-3 (1 - e² x_z² / |x|²)^-2
+double element(const dvec3& x, double e2) {
+  const double xx = glm::dot(x, x);
+  const double squeezed = xx - e2 * x.z * x.z;
+  return std::sqrt(xx) / (squeezed * squeezed);
+}
+
+/// The integral of the element over a flat triangle, in units of the parallelogram s, t: the triangle is a
+/// square with one side shrunk to the corner.
 double rule(const Flat& f, double e2) {
   double sum = 0;
   for (const Node& along : kGauss) {
     for (const Node& across : kGauss) {
       const dvec3 x = f.corner + along.x * ((1.0 - across.x) * f.s + across.x * f.t);
-      const double xx = glm::dot(x, x);
-      const double squeezed = xx - e2 * x.z * x.z;
-      sum += along.weight * across.weight * along.x * std::sqrt(xx) / (squeezed * squeezed);
+      sum += along.weight * across.weight * along.x * element(x, e2);
     }
   }
   return sum;
+}
+
+/// Sides up to which seven points do: 2e-14 of the result for |f| <= 0.1, and 64 times less for half the
+/// side.
+constexpr double kSmallSide = 0.0155;
+
+bool is_small(const Flat& f) {
+  const dvec3 third = f.t - f.s;
+  return std::max({glm::dot(f.s, f.s), glm::dot(f.t, f.t), glm::dot(third, third)}) <=
+         kSmallSide * kSmallSide;
+}
+
+/// The same by Radon's rule of degree 5 (Abramowitz and Stegun 1964, 25.4.63).
+double small_rule(const Flat& f, double e2) {
+  constexpr double kRoot15 = 3.8729833462074168852;
+  double sum = 0.225 * element(f.corner + (1.0 / 3.0) * (f.s + f.t), e2);
+  for (const double root : {-kRoot15, kRoot15}) {
+    const double two = (6.0 + root) / 21.0, one = 1.0 - 2.0 * two;  // weights of the corners in the point
+    sum += (155.0 + root) / 1200.0 *
+           (element(f.corner + two * (f.s + f.t), e2) + element(f.corner + two * f.s + one * f.t, e2) +
+            element(f.corner + one * f.s + two * f.t, e2));
+  }
+  return 0.5 * sum;
 }
 
 double integral(const Flat& f, double e2, double estimate, int depth) {
@@ -60,7 +89,8 @@ double surface_area(const Ellipsoid& ellipsoid, const std::array<dvec3, 3>& corn
   const Flat f{corners[0], corners[1] - corners[0], corners[2] - corners[0]};
   const double e2 = ellipsoid.f * (2.0 - ellipsoid.f);
   const double b = ellipsoid.b();
-  return b * b * glm::dot(f.corner, glm::cross(f.s, f.t)) * integral(f, e2, rule(f, e2), 0);
+  const double elements = is_small(f) ? small_rule(f, e2) : integral(f, e2, rule(f, e2), 0);
+  return b * b * glm::dot(f.corner, glm::cross(f.s, f.t)) * elements;
 }
 
 }  // namespace globe::geo

@@ -74,6 +74,12 @@ double geodesic_distance_m(const Ellipsoid& ellipsoid, const Geodetic& a, const 
   return distance;
 }
 
+dvec3 geodesic_end(const Ellipsoid& ellipsoid, const Geodetic& from, double azimuth_deg, double distance_m) {
+  double lat = 0, lon = 0;
+  geodesic(ellipsoid).Direct(from.lat_deg, from.lon_deg, azimuth_deg, distance_m, lat, lon);
+  return normal_from_degrees(lat, lon);
+}
+
 double injectivity_radius_m(const Ellipsoid& ellipsoid) {
   const double a = ellipsoid.a, b = ellipsoid.b();
   // pi / sqrt(greatest curvature), 1/b² at the equator if oblate, (b/a²)² at the poles if prolate; half the

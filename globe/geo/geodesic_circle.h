@@ -32,6 +32,10 @@ class GeodesicCircle {
 /// Geodesic distance (m) between two places. Error: 15 nm on the Earth (Karney 2013).
 double geodesic_distance_m(const Ellipsoid& ellipsoid, const Geodetic& a, const Geodetic& b);
 
+/// Normal (unit) of the place where a geodesic ends that leaves a place at an azimuth (degrees from north
+/// clockwise).
+dvec3 geodesic_end(const Ellipsoid& ellipsoid, const Geodetic& from, double azimuth_deg, double distance_m);
+
 /// Within this distance (m) every geodesic from any point is the shortest, so that a geodesic circle is the
 /// border of the places nearer than its radius (Klingenberg's theorem).
 double injectivity_radius_m(const Ellipsoid& ellipsoid);

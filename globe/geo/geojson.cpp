@@ -124,8 +124,9 @@ Feature feature_of(const json& value) {
 /// Takes the features out of a collection as the parser completes them.
 class Reader {
  public:
-  Reader(std::string name, const std::function<void(Feature&&)>& visit)
-      : name_(std::move(name)), visit_(visit) {}
+  Reader(std::string name, const std::function<void(Feature&&)>& visit,
+         const std::function<void(const Error&)>& refuse)
+      : name_(std::move(name)), visit_(visit), refuse_(refuse) {}
 
   void read(std::istream& stream) {
     json rest;
@@ -161,35 +162,40 @@ class Reader {
 
   void take(const json& value) {
     ++count_;
+    Feature feature;
     try {
-      Feature feature = feature_of(value);
-      feature.number = count_;
-      visit_(std::move(feature));
+      feature = feature_of(value);
     } catch (const Fault& fault) {
-      throw Error(name_ + ", feature " + std::to_string(count_), fault.why, kFormat);
+      const Error error(name_ + ", feature " + std::to_string(count_), fault.why, kFormat);
+      if (!refuse_) throw error;
+      return refuse_(error);
     }
+    feature.number = count_;
+    visit_(std::move(feature));
   }
 
   std::string name_;
   const std::function<void(Feature&&)>& visit_;
+  const std::function<void(const Error&)>& refuse_;
   bool in_features_ = false, features_seen_ = false;
   std::size_t count_ = 0;
 };
 
 }  // namespace
 
-void visit_geojson(std::istream& stream, const std::string& name,
-                   const std::function<void(Feature&&)>& visit) {
-  Reader(name, visit).read(stream);
+void visit_geojson(std::istream& stream, const std::string& name, const std::function<void(Feature&&)>& visit,
+                   const std::function<void(const Error&)>& refuse) {
+  Reader(name, visit, refuse).read(stream);
 }
 
-void visit_geojson(const std::filesystem::path& path, const std::function<void(Feature&&)>& visit) {
+void visit_geojson(const std::filesystem::path& path, const std::function<void(Feature&&)>& visit,
+                   const std::function<void(const Error&)>& refuse) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream || std::filesystem::is_directory(path)) {
     throw Error(path.string(), stream ? "it is a folder" : std::strerror(errno),
                 "give a readable GeoJSON file");
   }
-  visit_geojson(stream, path.string(), visit);
+  visit_geojson(stream, path.string(), visit, refuse);
 }
 
 }  // namespace globe::geo

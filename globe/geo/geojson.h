@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "globe/base/error.h"
 #include "globe/geo/ellipsoid.h"
 
 namespace globe::geo {
@@ -40,12 +41,14 @@ struct Feature {
 /// Reads a FeatureCollection, a Feature or a geometry, feature by feature, in memory for one of them.
 ///
 /// @param name  of the file, for messages
+/// @param refuse  if given, takes what is wrong with a feature, and reading goes on; else it is thrown
 /// Throws Error, which names the file and the feature, for what is no JSON, no GeoJSON, a latitude beyond 90
 /// degrees, a number out of range, a line of one point, a ring of fewer than four or not closed.
-void visit_geojson(std::istream& stream, const std::string& name,
-                   const std::function<void(Feature&&)>& visit);
+void visit_geojson(std::istream& stream, const std::string& name, const std::function<void(Feature&&)>& visit,
+                   const std::function<void(const Error&)>& refuse = {});
 
 /// The same from a file. Throws Error when it cannot be read.
-void visit_geojson(const std::filesystem::path& path, const std::function<void(Feature&&)>& visit);
+void visit_geojson(const std::filesystem::path& path, const std::function<void(Feature&&)>& visit,
+                   const std::function<void(const Error&)>& refuse = {});
 
 }  // namespace globe::geo

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "globe/htm/region.h"
 
@@ -20,6 +21,8 @@ class Complement final : public Region {
     if (relation == Relation::kTouches) return relation;
     return relation == Relation::kInside ? Relation::kDisjoint : Relation::kInside;
   }
+
+  std::vector<dvec3> border_points() const override { return region_->border_points(); }
 
  private:
   std::shared_ptr<const Region> region_;

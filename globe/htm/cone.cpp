@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <string>
@@ -51,6 +52,18 @@ Relation Cone::relation(const Corners& trixel) const {
   const Relation cap = cap_relation(trixel);
   if (!outside_ || cap == Relation::kTouches) return cap;
   return cap == Relation::kInside ? Relation::kDisjoint : Relation::kInside;
+}
+
+std::vector<dvec3> Cone::border_points() const {
+  if (everything_) return {};
+  // Square to the center, along the axis that it is farthest from.
+  const dvec3 size = glm::abs(center_);
+  const dvec3 axis = size.x <= size.y && size.x <= size.z ? dvec3{1, 0, 0}
+                     : size.y <= size.z                   ? dvec3{0, 1, 0}
+                                                          : dvec3{0, 0, 1};
+  const double radius = radius_deg_ * (std::numbers::pi / 180.0);
+  const dvec3 aside = glm::normalize(glm::cross(center_, axis));
+  return {glm::normalize(std::cos(radius) * center_ + std::sin(radius) * aside)};
 }
 
 Relation Cone::cap_relation(const Corners& t) const {

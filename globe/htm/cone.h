@@ -19,6 +19,7 @@ class Cone final : public Region {
 
   bool contains(const dvec3& u) const override;
   Relation relation(const Corners& trixel) const override;
+  std::vector<dvec3> border_points() const override;
 
   const dvec3& center() const { return center_; }
   double radius_deg() const { return radius_deg_; }

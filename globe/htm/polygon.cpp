@@ -287,4 +287,10 @@ Relation Polygon::relation(const Corners& t) const {
   return touched ? Relation::kTouches : relation_if(held(t[0]));
 }
 
+std::vector<dvec3> Polygon::border_points() const {
+  std::vector<dvec3> points;
+  for (const Edge& edge : edges_) points.push_back(edge.circle.a());
+  return points;
+}
+
 }  // namespace globe::htm

@@ -37,6 +37,7 @@ class Polygon final : public Region {
 
   bool contains(const dvec3& u) const override;
   Relation relation(const Corners& trixel) const override;
+  std::vector<dvec3> border_points() const override;
 
  private:
   struct Edge {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "globe/htm/trixel.h"
 
 namespace globe::htm {
@@ -23,6 +25,11 @@ class Region {
   /// Relation of the trixel with these corners. In doubt kTouches, so that an outer cover errs outwards and
   /// an inner one inwards.
   virtual Relation relation(const Corners& trixel) const = 0;
+
+  /// Directions (unit), one at least on each connected piece of the border, within rounding. None where there
+  /// is no border: for all of the sphere, or nothing of it. So that something without a border in the region
+  /// is known to lie around a part of it, or not.
+  virtual std::vector<dvec3> border_points() const = 0;
 };
 
 }  // namespace globe::htm

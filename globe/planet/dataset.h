@@ -24,7 +24,10 @@ namespace globe::planet {
 /// - "height_range": two channels, lowest and highest height of a block of cells. Sample (i, j) of level k
 /// covers
 ///   cell (i, j) of level k, borders included; i = 2^k and j = 2^k repeat the last cell. Its finest level is
-///   coarser than that of "height".
+///   coarser than that of "height" (block_level in mean_height.h).
+/// - "height_mean": two channels, mean height of the two trixels of a cell, half 0 and half 1 (see Cell),
+/// weighted by
+///   true area (mean_height.h); the same cells and levels as "height_range". Older planets lack it.
 /// - "color": three channels of sRGB, coarser levels filtered in linear light.
 struct LayerInfo {
   std::string name;

@@ -10,10 +10,7 @@ GroundSlope slope_at(const Surface& surface, const SurfaceTile& tile, const Tile
   const TileValues<double>& h = tile.shading_height();
   const double radius = surface.ellipsoid().mean_radius();
   const dvec3& u = directions.at(i, j);
-  const auto seen = [&](int x, int y) {
-    const double height = h.at(x, y);
-    return surface.has_sea() && height < 0.0 ? 0.0 : height;
-  };
+  const auto seen = [&](int x, int y) { return surface.drawn_height(h.at(x, y)); };
   // Two lattice axes span the tangent plane; their reciprocal basis turns the two rises into a gradient.
   const dvec3 a = (directions.at(i + 1, j) - directions.at(i - 1, j)) * radius;
   const dvec3 b = (directions.at(i, j + 1) - directions.at(i, j - 1)) * radius;

@@ -148,7 +148,7 @@ GLOBE_INLINE NoiseSample operator+(const NoiseSample& a, const NoiseSample& b) {
 /// Source: Perlin 2002, "Improving noise"; derivatives as in Quilez, "Gradient noise derivatives".
 GLOBE_INLINE NoiseSample gradient_noise(std::uint32_t seed, const dvec3& p) {
   using namespace lattice;
-  const Cell c = cell_of(seed, p);
+  const lattice::Cell c = cell_of(seed, p);
   const vec3 dw{fade_slope(c.x.f), fade_slope(c.y.f), fade_slope(c.z.f)};
   const NoiseSample sum =
       ((gradient_part<false, false, false>(c, dw) + gradient_part<false, false, true>(c, dw)) +
@@ -204,7 +204,7 @@ GLOBE_INLINE Stripes operator+(const Stripes& a, const Stripes& b) {
 GLOBE_INLINE Stripes stripe_noise(std::uint32_t seed, const dvec3& p, const vec3& across, float waves,
                                   float shift) {
   using namespace lattice;
-  const Cell c = cell_of(seed, p);
+  const lattice::Cell c = cell_of(seed, p);
   const vec3 along{waves * across.x, waves * across.y, waves * across.z};
   const Stripes sum =
       ((stripe_part<false, false, false>(c, along, shift) +

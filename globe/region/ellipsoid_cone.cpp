@@ -95,4 +95,11 @@ Relation EllipsoidCone::relation(const htm::Corners& t) const {
   return middle_m - size_m > radius_m_ ? Relation::kDisjoint : Relation::kTouches;
 }
 
+std::vector<dvec3> EllipsoidCone::border_points() const {
+  if (everything_) return {};
+  // Along a meridian if the ellipsoid is flat, else toward the east at right angles: the geodesics that stay
+  // the shortest for longest.
+  return {geo::geodesic_end(ellipsoid_, center_, ellipsoid_.f >= 0.0 ? 0.0 : 90.0, radius_m_)};
+}
+
 }  // namespace globe::region

@@ -21,6 +21,7 @@ class EllipsoidCone final : public htm::Region {
 
   bool contains(const htm::dvec3& u) const override;
   htm::Relation relation(const htm::Corners& trixel) const override;
+  std::vector<htm::dvec3> border_points() const override;
 
  private:
   double distance_m(const htm::dvec3& u) const;

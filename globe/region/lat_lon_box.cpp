@@ -68,4 +68,14 @@ htm::Relation LatLonBox::relation(const htm::Corners& trixel) const {
   return contains(trixel[0]) ? htm::Relation::kInside : htm::Relation::kDisjoint;
 }
 
+std::vector<htm::dvec3> LatLonBox::border_points() const {
+  std::vector<htm::dvec3> points;
+  for (const double lat : {south_deg_, north_deg_}) {
+    // Without meridians a pole is no border.
+    if (width_deg_ < kTurn || std::abs(lat) < 90.0)
+      points.push_back(geo::normal_from_degrees(lat, west_deg_));
+  }
+  return points;
+}
+
 }  // namespace globe::region

@@ -16,6 +16,7 @@ class LatLonBox final : public htm::Region {
 
   bool contains(const htm::dvec3& u) const override;
   htm::Relation relation(const htm::Corners& trixel) const override;
+  std::vector<htm::dvec3> border_points() const override;
 
  private:
   double west_deg_, south_deg_, width_deg_, north_deg_;

@@ -188,4 +188,10 @@ htm::Relation MapPolygon::relation(const htm::Corners& trixel) const {
   return contains(trixel[0]) ? htm::Relation::kInside : htm::Relation::kDisjoint;
 }
 
+std::vector<dvec3> MapPolygon::border_points() const {
+  std::vector<dvec3> points;
+  for (const Edge& edge : edges_) points.push_back(geo::normal_from_degrees(edge.a.lat_deg, edge.a.lon_deg));
+  return points;
+}
+
 }  // namespace globe::region

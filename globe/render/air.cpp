@@ -20,4 +20,6 @@ glm::vec3 sun_transmittance(float height_km, float cos_sun, float ground_radius_
   return shader::sun_transmittance(height_km, cos_sun, ground_radius_km);
 }
 
+float air_top_km() { return shader::kAirTop; }
+
 }  // namespace globe::render

@@ -8,4 +8,7 @@ namespace globe::render {
 /// shaders/lib/atmosphere.glsl, compiled here.
 glm::vec3 sun_transmittance(float height_km, float cos_sun, float ground_radius_km);
 
+/// Height above which there is no air, km.
+float air_top_km();
+
 }  // namespace globe::render

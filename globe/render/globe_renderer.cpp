@@ -11,38 +11,16 @@
 #include <utility>
 
 #include "globe/clipmap/morph.h"
-#include "globe/render/air.h"
+#include "globe/render/view_block.h"
 
 namespace globe::render {
 namespace {
 
-/// Mirrors `View` in shaders/lib/view.glsl (std140).
-struct ViewBlock {
-  glm::mat4 clip_from_relative;
-  glm::vec4 eye_km;
-  glm::vec4 sun;
-  glm::vec4 rounding;
-  glm::vec4 right;
-  glm::vec4 up;
-  glm::vec4 forward;
-  glm::vec4 sun_at_eye;
-};
-
-constexpr float kSunlight = 5.0f;  ///< sunlight above the air, in units of the tone curve's white
-constexpr float kExposure = 1.0f;
-constexpr int kHazeSteps = 4;              ///< samples of the air between the eye and a vertex
-constexpr double kTwilightCosine = 0.3;    ///< of the sun's zenith angle: lower, the haze is sampled in full
-constexpr double kTwilightHeight = 300.0;  ///< km; from higher up the terminator is a narrow band
-constexpr int kSkySteps = 16;              ///< samples of the air along a ray of the sky map
-constexpr glm::ivec2 kSkyMap{32, 128};     ///< texels across azimuth and up from the horizon
+constexpr int kHazeSteps = 4;  ///< samples of the air between the eye and a vertex
 constexpr std::size_t kMaxInstances = 32768;
 constexpr double kSunMoved =
     1e-3;  ///< radians (0.06 degrees) after which frames in real time light the ground anew
 constexpr float kLateFade = 0.1f;  ///< a level that arrives late morphs in by this much a frame
-
-bool has_air(const planet::PlanetInfo& info) {
-  return info.body == "earth" || info.name.rfind("procedural", 0) == 0;
-}
 
 gl::Program ground_program(const Look& look, const RenderSettings& settings) {
   gl::ProgramSources sources;
@@ -57,34 +35,6 @@ gl::Program ground_program(const Look& look, const RenderSettings& settings) {
   return gl::Program(sources);
 }
 
-ViewBlock view_block(const Camera& camera, const planet::Surface& surface, const glm::dvec3& sun,
-                     double near_m) {
-  const geo::Ellipsoid& ellipsoid = surface.ellipsoid();
-  // The air follows the ellipsoid: scaled until that is a sphere, it is as thick everywhere.
-  const double radius = ellipsoid.mean_radius();
-  const glm::dvec3 rounding(radius / ellipsoid.a, radius / ellipsoid.a, radius / ellipsoid.b());
-  ViewBlock block{};
-  block.clip_from_relative = glm::mat4(clip_from_relative(camera, near_m));
-  block.eye_km = glm::vec4(glm::vec3(camera.position * rounding * 1e-3), static_cast<float>(radius * 1e-3));
-  block.sun = glm::vec4(glm::vec3(sun), kSunlight);
-  block.rounding = {static_cast<float>(rounding.x), static_cast<float>(rounding.z),
-                    has_air(surface.info()) ? 1.0f : 0.0f, kExposure};
-  block.right = glm::vec4(glm::vec3(camera.right * camera.tan_x()), 0.0f);
-  block.up = glm::vec4(glm::vec3(camera.up * camera.tan_y()), 0.0f);
-  block.forward = glm::vec4(glm::vec3(camera.forward), 0.0f);
-  const glm::dvec3 eye_km = camera.position * rounding * 1e-3;
-  const double height_km = std::max(glm::length(eye_km) - radius * 1e-3, 0.0);
-  block.sun_at_eye = glm::vec4(1.0f, 1.0f, 1.0f, 0.0f);
-  if (has_air(surface.info())) {
-    const double cos_sun = glm::dot(glm::normalize(eye_km), sun);
-    const bool twilight = cos_sun < kTwilightCosine && height_km < kTwilightHeight;
-    block.sun_at_eye = glm::vec4(sun_transmittance(static_cast<float>(height_km), static_cast<float>(cos_sun),
-                                                   static_cast<float>(radius * 1e-3)),
-                                 twilight ? 1.0f : 0.0f);
-  }
-  return block;
-}
-
 }  // namespace
 
 GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, const RenderSettings& settings)
@@ -96,7 +46,6 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
       view_(sizeof(ViewBlock)),
       slots_(kMaxSlots * sizeof(SlotBlock)),
       ground_array_(gl::VertexArray::create()),
-      sky_array_(gl::VertexArray::create()),
       textures_(settings.clipmap) {
   std::vector<std::uint16_t> indices;
   for (std::size_t rim = 0; rim < 8; ++rim) {
@@ -110,18 +59,7 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
   ground_array_.set_attribute(1, {1, 4, GL_INT, 0, gl::Attribute::Kind::kInteger});
   ground_array_.set_indices(indices_);
   for (std::size_t k = 0; k < kLooks.size(); ++k) ground_[k] = ground_program(kLooks[k], settings_);
-  if (!settings_.background) {
-    gl::ProgramSources sources;
-    sources.files = {"sky.vert", "sky.frag"};
-    sky_ = gl::Program(sources);
-    if (has_air(surface_->info())) {
-      sources.files = {"sky.vert", "sky_map.frag"};
-      sources.defines = {"SKY_STEPS " + std::to_string(kSkySteps)};
-      sky_map_program_ = gl::Program(sources);
-      sky_map_ = gl::Framebuffer(kSkyMap.x, kSkyMap.y, {1, GL_RGBA16F, GL_DEPTH_COMPONENT32F});
-      sky_map_.set_color_filter(GL_LINEAR);
-    }
-  }
+  if (!settings_.background) sky_.emplace(has_air(surface_->info()));
 }
 
 double GlobeRenderer::height_above_ground(const glm::dvec3& position, bool wait) const {
@@ -129,7 +67,7 @@ double GlobeRenderer::height_above_ground(const glm::dvec3& position, bool wait)
   const glm::dvec3 u = geo::normal_from_degrees(place.lat_deg, place.lon_deg);
   const auto drawn = [&](int level) {
     const double h = wait ? surface_->height(u, level) : surface_->height_at_hand(u, level);
-    return place.h_m - (surface_->has_sea() ? std::max(h, 0.0) : h);
+    return place.h_m - surface_->drawn_height(h);
   };
   double above = drawn(settings_.clipmap.base_level);
   for (int k = 0; k < 3; ++k) {
@@ -225,7 +163,7 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   const ViewBlock view = view_block(camera, *surface_, sun, near_distance(surface_->ellipsoid(), above));
   view_.upload(0, &view, sizeof(view));
   view_.bind_base(GL_UNIFORM_BUFFER, 0);
-  if (sky_map_program_) fill_sky_map();
+  if (sky_) sky_->prepare();
 
   target.bind();
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -249,27 +187,8 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   stats.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   stats.patches = list.patches;
   draw_ground(list, stats);
-  if (sky_) {
-    glDepthFunc(GL_GEQUAL);
-    glDepthMask(GL_FALSE);
-    sky_array_.bind();
-    if (sky_map_program_) sky_map_.color().bind(4);
-    sky_->use();
-    sky_->set(0, glm::vec2(kSkyMap));
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDepthMask(GL_TRUE);
-  }
+  if (sky_) sky_->draw(view);
   return stats;
-}
-
-void GlobeRenderer::fill_sky_map() {
-  sky_map_.bind();
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
-  sky_array_.bind();
-  sky_map_program_->use();
-  sky_map_program_->set(0, glm::vec2(kSkyMap));
-  glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void GlobeRenderer::draw_ground(const DrawList& list, FrameStats& stats) {

@@ -15,6 +15,7 @@
 #include "globe/render/camera.h"
 #include "globe/render/clipmap_textures.h"
 #include "globe/render/draw_list.h"
+#include "globe/render/sky.h"
 
 namespace globe::render {
 
@@ -78,7 +79,6 @@ class GlobeRenderer {
  private:
   /// Brings the state as far toward the target as is allowed; returns the bytes uploaded.
   std::size_t load(const clipmap::Target& target, bool wait);
-  void fill_sky_map();
   void draw_ground(const DrawList& list, FrameStats& stats);
   void draw_batches(const DrawList& list, const glm::vec4& overlay);
 
@@ -87,11 +87,9 @@ class GlobeRenderer {
   clipmap::PatchMesh mesh_;
   std::array<std::size_t, 8> index_offset_{};
   gl::Buffer vertices_, indices_, instances_, view_, slots_;
-  gl::VertexArray ground_array_, sky_array_;
+  gl::VertexArray ground_array_;
   std::array<gl::Program, kLooks.size()> ground_;  ///< by Look, in the order of kLooks
-  std::optional<gl::Program> sky_,
-      sky_map_program_;  ///< none with a background; no map where there is no air
-  gl::Framebuffer sky_map_;
+  std::optional<Sky> sky_;                         ///< none with a background
   ClipmapTextures textures_;
   std::shared_ptr<const clipmap::ClipmapState> state_;
   float shown_fade_ = 0.0f;  ///< of the finest level last frame, to let late arrivals morph in

@@ -106,6 +106,33 @@ TEST(Height, InterpolationsAgreeAtNodesAndDifferBetweenThem) {
   EXPECT_NE(with("12.3 45.6", "linear"), with("12.3 45.6", "cubic"));
 }
 
+TEST(Height, DrawnIsTheFlatTrixelBelowTheCurve) {
+  const tests::TemporaryFolder folder;
+  const std::string planet = cli::make_planet(folder.path(), {"--ellipsoid", "moon"});
+  for (const char* node : {"90 0", "0 0", "45 90", "-45 -180"}) {
+    EXPECT_NEAR(height(planet, node, {"--drawn"})["height_m"].get<double>(),
+                height(planet, node)["height_m"].get<double>(), 1e-6)
+        << node;
+  }
+  // Level 4 on the Moon: edges of 120 to 220 km, L²/6R = 1.4 to 4.6 km in the middle of a trixel.
+  const std::string middle = "32.3 74.1";
+  const json flat = height(planet, middle, {"--drawn"});
+  const json curved = height(planet, middle);
+  const double below = curved["height_m"].get<double>() - flat["height_m"].get<double>();
+  EXPECT_GT(below, 100.0);
+  EXPECT_LT(below, 5000.0);
+  EXPECT_NEAR(flat["error_m"].get<double>(), curved["error_m"].get<double>() + below, 1e-6);
+  EXPECT_EQ(flat["source"], "data");
+  EXPECT_NEAR(height(planet, middle, {"--drawn", "--level", "16"})["height_m"].get<double>(),
+              height(planet, middle, {"--level", "16"})["height_m"].get<double>(), 0.01);
+}
+
+TEST(Height, DrawnSeaIsAtHeightZero) {
+  const json drawn = height("procedural", "0 -90", {"--drawn", "--level", "20"});
+  EXPECT_LT(height("procedural", "0 -90", {"--level", "20"})["height_m"].get<double>(), -100.0);
+  EXPECT_NEAR(drawn["height_m"].get<double>(), 0.0, 0.01);
+}
+
 TEST(Height, AnswersBadPointsOnTheirOwnLineAndGoesOn) {
   const Outcome run = run_program({"height", "procedural"}, "# points\n1 2\nnorth\n-3,4\n");
   EXPECT_EQ(run.status, 1);
@@ -117,10 +144,12 @@ TEST(Height, AnswersBadPointsOnTheirOwnLineAndGoesOn) {
 }
 
 TEST(Height, RefusesUnknownWords) {
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"height"},
-                                                {"height", "procedural", "--interpolation", "magic", "1 2"},
-                                                {"height", "procedural", "--level", "29", "1 2"},
-                                                {"height", "procedural:seven", "1 2"}}) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"height"},
+        {"height", "procedural", "--interpolation", "magic", "1 2"},
+        {"height", "procedural", "--level", "29", "1 2"},
+        {"height", "procedural", "--drawn", "--interpolation", "cubic", "1 2"},
+        {"height", "procedural:seven", "1 2"}}) {
     const Outcome run = run_program(words);
     EXPECT_EQ(run.status, 2);
     EXPECT_EQ(run.out, "");
@@ -181,7 +210,8 @@ TEST(HeightOfTheEarth, IsThatOfTheMapAtKnownPlaces) {
   };
   for (const Spot& spot :
        {Spot{"Cape Comorin, coast of India", "8.08 77.55", -100, 200},
-        Spot{"sea off Mumbai", "18.5 70.5", -1000, -5}, Spot{"Deccan inland of Mumbai", "18.5 74.5", 300, 900},
+        Spot{"sea off Mumbai", "18.5 70.5", -1000, -5},
+        Spot{"Deccan inland of Mumbai", "18.5 74.5", 300, 900},
         Spot{"Everest's cell", "27.99 86.92", 4800, 6000}, Spot{"Tibet", "32 88", 4500, 5500},
         Spot{"Challenger Deep", "11.35 142.2", -8500, -6500}, Spot{"Dead Sea", "31.5 35.5", -450, 400},
         Spot{"Denver", "39.7 -105", 1400, 2300}, Spot{"mid Pacific", "0 -150", -6000, -3500},

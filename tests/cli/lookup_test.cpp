@@ -279,6 +279,36 @@ TEST(Lookup, PutsPlacesOnThePlanetsEllipsoidAndNamesNoGridsOffTheEarth) {
   EXPECT_TRUE(answer["mgrs"].is_null());
 }
 
+TEST(Lookup, InterpolatesHeightsAsHeightDoes) {
+  for (const char* interpolation : {"nearest", "linear", "cubic"}) {
+    const json named = json::parse(run_program({"lookup", "procedural", "--json", "--level", "14",
+                                                "--interpolation", interpolation, "12.3 45.6"})
+                                       .out);
+    const json height = json::parse(
+        run_program({"height", "procedural", "--json", "--interpolation", interpolation, "12.3 45.6"}).out);
+    EXPECT_EQ(named["level"], 14);
+    EXPECT_EQ(named["height_m"], height["height_m"]) << interpolation;
+  }
+  const auto with = [](const std::vector<std::string>& options) {
+    std::vector<std::string> words{"lookup", "procedural", "12.3 45.6"};
+    words.insert(words.end(), options.begin(), options.end());
+    return run_program(words).out;
+  };
+  EXPECT_EQ(with({}), with({"--interpolation", "linear"}));
+  EXPECT_NE(with({}), with({"--interpolation=cubic"}));
+}
+
+TEST(Lookup, RefusesToInterpolateWithoutAPlanetAndByUnknownWays) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"lookup", "--interpolation", "cubic", "1 2"},
+        {"lookup", "procedural", "--interpolation", "magic", "1 2"}}) {
+    const Outcome run = run_program(words);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  }
+}
+
 TEST(Lookup, SaysWhenItsOutputCannotBeWritten) {
   const std::string command = std::string(GLOBE_PROGRAM) + " lookup '1 2' > /dev/full 2> /dev/null";
   const int status = std::system(command.c_str());

@@ -326,6 +326,7 @@ class Careless final : public Region {
     const bool slips = std::fmod(std::abs(t[0].x) * 1e6, 1.0) < 0.25;
     return slips && relation == globe::htm::Relation::kTouches ? mistake_ : relation;
   }
+  std::vector<dvec3> border_points() const override { return region_->border_points(); }
 
  private:
   RegionPointer region_;

@@ -67,7 +67,7 @@ TEST(Convert, MakesTheSameBytesWhateverTheThreadsAndTheMemory) {
   options.threads = 1;
   convert(options, {});
   const std::map<std::string, std::string> reference = contents(options.planet);
-  EXPECT_EQ(reference.size(), 17U);
+  EXPECT_EQ(reference.size(), 21U);
   options.overwrite = true;
   for (const int threads : {2, 4}) {
     options.threads = threads;

@@ -99,7 +99,7 @@ TEST(Filter, ReachesAcrossTheBordersOfDiamonds) {
 TEST(HeightRange, HoldsTheLowestAndHighestSampleOfEveryCell) {
   MemoryBudget budget = plenty();
   const int level = 6;
-  const std::vector<LayerOutput> layers = height_layers(hashed(level, 1, budget), budget);
+  const std::vector<LayerOutput> layers = height_layers(hashed(level, 1, budget), globe::geo::kWgs84, budget);
   const LayerOutput& ranges = layers.at(2);
   ASSERT_EQ(ranges.stored.info.name, "height_range");
   ASSERT_EQ(ranges.stored.info.level, level - 3);

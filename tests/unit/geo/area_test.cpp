@@ -32,6 +32,22 @@ TEST(SurfaceArea, OfALevelSumsToThatOfTheEllipsoid) {
   }
 }
 
+TEST(SurfaceArea, OfSmallTrianglesIsThatOfLargeOnesCutUp) {
+  // From level 7 on another rule takes over; a trixel of level 6 is cut into both kinds.
+  std::mt19937_64 random(43);
+  for (const Ellipsoid& e : {kWgs84, kMoon, Ellipsoid{1.0, 0.1}, Ellipsoid{1.0, -0.1}}) {
+    for (int trial = 0; trial < 200; ++trial) {
+      const htm::Trixel t{(htm::kFirstRoot << 12) + random() % (8ULL << 12)};
+      for (const int below : {1, 2}) {
+        double sum = 0;
+        for (std::uint64_t k = 0; k < 1ULL << (2 * below); ++k)
+          sum += surface_area(e, htm::corners({(t.id << (2 * below)) + k}));
+        EXPECT_NEAR(sum / surface_area(e, htm::corners(t)), 1.0, 1e-13) << htm::name(t) << " f " << e.f;
+      }
+    }
+  }
+}
+
 TEST(SurfaceArea, OfTheFourChildrenIsThatOfTheParent) {
   std::mt19937_64 random(41);
   for (int level = 0; level < 12; ++level) {
