@@ -18,7 +18,7 @@ using globe::planet::ProfileSample;
 using Samples = std::span<const ProfileSample>;
 
 /// Edges of the axes, shares of the picture.
-constexpr double kLeft = 0.075, kRight = 0.97, kBottom = 0.12, kTop = 0.84;
+constexpr double kLeft = 0.085, kRight = 0.97, kBottom = 0.12, kTop = 0.84;
 
 /// A text as gnuplot takes it: nothing in it is special but the quote, which is doubled.
 std::string literal(std::string_view text) {
@@ -61,9 +61,11 @@ std::string mark(const ProfileSample& sample, std::string_view name, double leng
   const std::string km = number_text(sample.distance_m / 1000.0, 6) + ",";
   const double share = sample.distance_m / length_m;
   const char* side = share < 0.1 ? "left" : share > 0.9 ? "right" : "center";
-  const std::string text = std::string(name) + " " + number_text(sample.height_m, 0) + " m";
+  const std::string metres = number_text(std::abs(sample.height_m), 0);
+  const bool below = sample.height_m < 0.0 && metres != "0";
+  const std::string text = std::string(name) + (below ? " −" : " ") + metres + " m";
   return "set label at " + km + number_text(sample.height_m, 3) +
-         " front point pt 7 ps 0.9 lc rgb '#7a1f1f'\nset label " + literal(text) + " at " + km +
+         " front point pt 7 ps dot lc rgb '#7a1f1f'\nset label " + literal(text) + " at " + km +
          number_text(text_m, 3) + " " + side + " offset 0," + (above ? "0.9" : "-0.9") +
          " front font ',13' tc rgb '#7a1f1f'\n";
 }
@@ -77,12 +79,15 @@ std::string script(Samples samples, const ProfilePlot& plot, const std::filesyst
   std::string text;
   const auto line = [&](const std::string& command) { text += command + '\n'; };
   const std::string size = std::to_string(kPlotWidth) + "," + std::to_string(kPlotHeight);
-  if (output.extension() == ".svg") {
-    line("set terminal svg size " + size + " noenhanced font 'DejaVu Sans,15' background rgb 'white'");
+  const bool svg = output.extension() == ".svg";
+  if (svg) {  // its points are pixels, a PNG's are larger
+    line("set terminal svg size " + size +
+         " noenhanced font 'DejaVu Sans,13' fontscale 1.35 background rgb 'white'");
   } else {
     line("set terminal pngcairo size " + size + " noenhanced font 'DejaVu Sans,13' background rgb 'white'");
   }
-  line("set encoding utf8");
+  line(svg ? "dot = 0.5" : "dot = 0.9");
+  line("set encoding utf8; set minussign");
   line("set output " + literal(output.string()));
   line("set lmargin at screen " + number_text(kLeft, 3) + "; set rmargin at screen " +
        number_text(kRight, 3));
@@ -94,7 +99,7 @@ std::string script(Samples samples, const ProfilePlot& plot, const std::filesyst
        " at screen " + number_text(kLeft, 3) + ",0.885 left font ',13' tc rgb '#555555'");
   line("set xrange [0:" + number_text(length_m / 1000.0, 6) + "]");
   line("set yrange [" + number_text(axis.low, 3) + ":" + number_text(axis.high, 3) + "]");
-  line("set xlabel 'distance, km' offset 0,0.2; set ylabel 'height, m' offset 0.5,0");
+  line("set xlabel 'distance, km' offset 0,0.2; set ylabel 'height, m' offset -1,0");
   line("set border 3 lc rgb '#444444'; set tics nomirror out tc rgb '#333333'; set mxtics; set mytics");
   line("set grid y lt 1 dt solid lc rgb '#e4e4e4' lw 1 back; unset key");
   line("$ground << END");

@@ -34,18 +34,18 @@ struct Sight {
 /// The ray is straight in ECEF. With refraction it is raised above the straight line, s metres from one of
 /// eyes S metres apart, by K s (S - s) / 2R along the normal, R the ellipsoid's mean radius: the arc of
 /// curvature K / R to second order, which lets the horizon recede by 1 / sqrt(1 - K), as over a planet of
-/// radius R / (1 - K). K = 0.13 is Gauss's value for light near the ground (Torge and Müller, Geodesy,
-/// 4th ed. 2012, section 5.1.1).
+/// radius R / (1 - K). K = 0.13 is Gauss's value for light near the ground (Torge and Müller 2012, Geodesy,
+/// on refraction).
 ///
 /// Nothing is sampled at a fixed step. The ray is halved until an interval is known to be clear: its height
 /// has a lower bound (it is convex, with a curvature of at most 1 / (rho + h), rho the least radius of
 /// curvature), and the ground an upper one, that of the smallest trixel around both ends (a trixel is
 /// convex; the pyramid "height_range" and the tiles below the data know its highest node). Within one trixel
 /// of the level both are smooth and the bound is that of the parabola through the ends. The worst is looked
-/// at first, so a look from Everest to orbit takes some hundred steps.
-/// Error: of the clearance 20 nm on the Earth; 1 mm of the ray about a trixel's side; off the sphere a track
-/// bends away from a trixel's side by 15 mm at most. visible(a, b) = visible(b, a) exactly, and so is
-/// `lowest`.
+/// at first. Cost: 0.4 ms a look from Everest to any place at level 10, on average.
+/// Both eyes get the same answer, bit for bit: `visible`, `lowest` and `range_m`.
+/// Error: of the clearance 20 nm on the Earth. A trixel may be passed over that the ray crosses for less than
+/// a millimetre or, off the sphere, beside whose side it runs for kilometres, less than 13 mm inside.
 /// @param a, b  latitude, longitude, height above the ellipsoid, -a / 10 to 1e9 m
 Sight sight(const Surface& surface, const geo::Geodetic& a, const geo::Geodetic& b,
             const SightSettings& settings);
