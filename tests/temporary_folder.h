@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <system_error>
 
@@ -26,6 +27,14 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+  /// Everything in it, hidden names too, as paths from here.
+  std::set<std::string> contents() const {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path_))
+      names.insert(std::filesystem::relative(entry.path(), path_).string());
+    return names;
+  }
 
  private:
   std::filesystem::path path_;

@@ -139,9 +139,8 @@ class Summarizer {
         level_(level),
         block_level_(block_level(level)),
         heights_(surface, level),
-        has_pyramids_(surface.dataset() != nullptr && level == surface.data_level() &&
-                      surface.dataset()->layer("height_range") != nullptr &&
-                      surface.dataset()->layer("height_mean") != nullptr),
+        has_pyramids_(heights_.on_disk() && level == surface.data_level() && has_pyramid("height_range") &&
+                      has_pyramid("height_mean")),
         cutter_(region) {}
 
   std::optional<RegionSummary> run() {
@@ -160,6 +159,12 @@ class Summarizer {
   }
 
  private:
+  /// Whether a layer of two numbers a cell goes down to the block level.
+  bool has_pyramid(const char* name) const {
+    const LayerInfo* layer = surface_.dataset()->layer(name);
+    return layer != nullptr && layer->channels == 2 && layer->level >= block_level_;
+  }
+
   void refuse_too_many_tiles() const {
     const int tile_level = std::max(0, level_ - 6);
     std::uint64_t halves = 0;

@@ -9,11 +9,12 @@
 #include <random>
 #include <thread>
 
-#include "tests/cli/spawn.h"
+#include "tests/cli/run_program.h"
 
 namespace {
 
-using cli::Result;
+using cli::Outcome;
+using cli::run_program;
 using tests::TemporaryFolder;
 
 void write_map(const std::filesystem::path& path, int width, int height) {
@@ -28,7 +29,7 @@ void write_map(const std::filesystem::path& path, int width, int height) {
 }
 
 /// One line for people: "globe: WHAT: WHY; WHAT TO DO".
-void expect_refusal(const Result& result, int status, const std::string& part) {
+void expect_refusal(const Outcome& result, int status, const std::string& part) {
   EXPECT_EQ(result.status, status) << result.err;
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err.rfind("globe: ", 0), 0U) << result.err;
@@ -40,21 +41,21 @@ TEST(ConvertCommand, MakesAPlanetThatInfoDescribes) {
   const TemporaryFolder folder;
   write_map(folder / "map.tif", 128, 64);
   const std::string planet = (folder / "planet").string();
-  const Result made =
-      cli::run({"convert", (folder / "map.tif").string(), "-o", planet, "--credit", "by hand"});
+  const Outcome made =
+      run_program({"convert", (folder / "map.tif").string(), "-o", planet, "--credit", "by hand"});
   EXPECT_EQ(made.status, 0) << made.err;
   EXPECT_EQ(made.out, "");
   for (const char* part : {"wgs84 assumed", "level 5", "filter bilinear", "longitudes -180 to 180 (assumed"})
     EXPECT_NE(made.err.find(part), std::string::npos) << part << " in " << made.err;
 
-  const Result json = cli::run({"info", planet, "--json", "--verify"});
+  const Outcome json = run_program({"info", planet, "--json", "--verify"});
   ASSERT_EQ(json.status, 0) << json.err;
   const nlohmann::json info = nlohmann::json::parse(json.out);
   EXPECT_EQ(info["layers"][0]["name"], "height");
   EXPECT_EQ(info["layers"][0]["level"], 5);
   EXPECT_EQ(info["credits"][0], "by hand");
   EXPECT_TRUE(info["damage"].empty());
-  const Result text = cli::run({"info", planet});
+  const Outcome text = run_program({"info", planet});
   EXPECT_EQ(text.status, 0);
   EXPECT_NE(text.out.find("height_range"), std::string::npos) << text.out;
 }
@@ -62,21 +63,21 @@ TEST(ConvertCommand, MakesAPlanetThatInfoDescribes) {
 TEST(ConvertCommand, TakesNegativeValuesAndQuiet) {
   const TemporaryFolder folder;
   write_map(folder / "map.tif", 64, 32);
-  const Result made =
-      cli::run({"convert", (folder / "map.tif").string(), "-o", (folder / "p").string(), "--offset", "-100",
-                "--extent", "-180,-90,180,90", "--nodata=-9999", "--quiet"});
+  const Outcome made =
+      run_program({"convert", (folder / "map.tif").string(), "-o", (folder / "p").string(), "--offset",
+                   "-100", "--extent", "-180,-90,180,90", "--nodata=-9999", "--quiet"});
   EXPECT_EQ(made.status, 0) << made.err;
   EXPECT_EQ(made.err, "");
   const nlohmann::json info =
-      nlohmann::json::parse(cli::run({"info", (folder / "p").string(), "--json"}).out);
+      nlohmann::json::parse(run_program({"info", (folder / "p").string(), "--json"}).out);
   EXPECT_LT(info["layers"][0]["min"], 0.0);
 }
 
 TEST(ConvertCommand, PrintsProgressForPrograms) {
   const TemporaryFolder folder;
   write_map(folder / "map.tif", 1024, 512);
-  const Result made = cli::run({"convert", (folder / "map.tif").string(), "-o", (folder / "p").string(),
-                                "--quiet", "--progress", "json"});
+  const Outcome made = run_program({"convert", (folder / "map.tif").string(), "-o", (folder / "p").string(),
+                                    "--quiet", "--progress", "json"});
   ASSERT_EQ(made.status, 0) << made.err;
   std::istringstream lines(made.err);
   int count = 0;
@@ -95,7 +96,7 @@ TEST(ConvertCommand, RefusesBadInputsWithOneLine) {
   const auto convert = [&](std::vector<std::string> args) {
     args.insert(args.begin(), "convert");
     args.insert(args.end(), {"-o", planet, "--quiet"});
-    return cli::run(args);
+    return run_program(args);
   };
   expect_refusal(convert({(folder / "absent.tif").string()}), 1, "no such file");
   expect_refusal(convert({(folder / "letter.tif").string()}), 1, "not a readable image");
@@ -109,12 +110,12 @@ TEST(ConvertCommand, RefusesBadInputsWithOneLine) {
   expect_refusal(convert({map, "--ellipsoid", "pluto"}), 2, "pluto");
   expect_refusal(convert({map, "--ellipsoid", "-5,0"}), 2, "positive");
   expect_refusal(convert({map, "--nodata", "many"}), 2, "not a number");
-  expect_refusal(cli::run({"convert", map}), 2, "output");
+  expect_refusal(run_program({"convert", map}), 2, "output");
   std::filesystem::resize_file(map, std::filesystem::file_size(map) / 2);
   expect_refusal(convert({map}), 1, "map.tif");
   EXPECT_FALSE(std::filesystem::exists(planet));
   EXPECT_FALSE(std::filesystem::exists(planet + ".partial"));
-  expect_refusal(cli::run({"info", planet}), 1, "not a planet");
+  expect_refusal(run_program({"info", planet}), 1, "not a planet");
 }
 
 TEST(ConvertCommand, RefusesAnExistingPlanetUnlessToldToReplaceIt) {
@@ -122,12 +123,12 @@ TEST(ConvertCommand, RefusesAnExistingPlanetUnlessToldToReplaceIt) {
   write_map(folder / "map.tif", 64, 32);
   const std::vector<std::string> args{"convert", (folder / "map.tif").string(), "-o",
                                       (folder / "planet").string(), "--quiet"};
-  EXPECT_EQ(cli::run(args).status, 0);
-  expect_refusal(cli::run(args), 1, "--overwrite");
+  EXPECT_EQ(run_program(args).status, 0);
+  expect_refusal(run_program(args), 1, "--overwrite");
   std::vector<std::string> again = args;
   again.insert(again.end(), {"--overwrite", "--level", "2"});
-  EXPECT_EQ(cli::run(again).status, 0);
-  EXPECT_NE(cli::run({"info", (folder / "planet").string(), "--json"}).out.find("\"level\":2"),
+  EXPECT_EQ(run_program(again).status, 0);
+  EXPECT_NE(run_program({"info", (folder / "planet").string(), "--json"}).out.find("\"level\":2"),
             std::string::npos);
 }
 
@@ -139,7 +140,7 @@ TEST(ConvertCommand, KilledAtAnyMomentLeavesNoUnfinishedPlanet) {
   const std::vector<std::string> args{
       "convert", (folder / "map.tif").string(), "-o", planet, "--quiet", "--level", "9"};
   const auto begin = std::chrono::steady_clock::now();
-  ASSERT_EQ(cli::run(args).status, 0);
+  ASSERT_EQ(run_program(args).status, 0);
   const auto whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const std::string reference = cli::text_of(planet + "/planet.json");
   std::filesystem::remove_all(planet);
@@ -153,7 +154,7 @@ TEST(ConvertCommand, KilledAtAnyMomentLeavesNoUnfinishedPlanet) {
     ::kill(child, k % 3 == 0 ? SIGTERM : SIGKILL);
     cli::wait_for(child);
     if (std::filesystem::exists(planet)) {
-      EXPECT_EQ(cli::run({"info", planet, "--verify"}).status, 0);
+      EXPECT_EQ(run_program({"info", planet, "--verify"}).status, 0);
       EXPECT_EQ(cli::text_of(planet + "/planet.json"), reference);
       std::filesystem::remove_all(planet);
     } else {
@@ -161,7 +162,7 @@ TEST(ConvertCommand, KilledAtAnyMomentLeavesNoUnfinishedPlanet) {
     }
   }
   EXPECT_GT(unfinished, 0);
-  EXPECT_EQ(cli::run(args).status, 0) << "what a killed conversion leaves does not stand in the way";
+  EXPECT_EQ(run_program(args).status, 0) << "what a killed conversion leaves does not stand in the way";
   EXPECT_EQ(cli::text_of(planet + "/planet.json"), reference);
   EXPECT_FALSE(std::filesystem::exists(planet + ".partial"));
 }

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "tests/cli/run_program.h"
-#include "tests/cli/spawn.h"
 #include "tests/temporary_folder.h"
 
 namespace {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "tests/cli/run_program.h"
-#include "tests/cli/spawn.h"
 #include "tests/temporary_folder.h"
 
 // What README and COMMANDS promise of the program as a whole.

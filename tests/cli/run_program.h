@@ -1,15 +1,19 @@
 #pragma once
 
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "tests/temporary_folder.h"
 
 namespace cli {
 
@@ -26,49 +30,46 @@ struct Outcome {
   }
 };
 
-/// A file of its own, gone with the object.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& content = "") {
-    descriptor_ = mkstemp(path_.data());
-    std::ofstream(path_) << content;
-  }
-  ~TemporaryFile() {
-    close(descriptor_);
-    unlink(path_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
+inline std::string text_of(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
-  int descriptor() const { return descriptor_; }
-  std::string content() const {
-    std::ifstream file(path_);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
- private:
-  std::string path_ = "/tmp/globe-cli-XXXXXX";
-  int descriptor_ = -1;
-};
-
-/// Runs the program with these words (no shell between) and this standard input.
-inline Outcome run_program(const std::vector<std::string>& words, const std::string& input = "") {
-  const TemporaryFile in(input), out, err;
+/// What a child does: becomes the program with these words, no shell between.
+[[noreturn]] inline void become_program(const std::vector<std::string>& words) {
   std::vector<char*> argv{const_cast<char*>(GLOBE_PROGRAM)};
   for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
+  ::execv(GLOBE_PROGRAM, argv.data());
+  ::_exit(127);
+}
+
+/// Starts the program with its three streams in the files stdin, stdout and stderr of a folder; gives the
+/// process id.
+inline pid_t start(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                   const std::string& input = "") {
+  std::ofstream(folder / "stdin", std::ios::binary) << input;
   std::fflush(nullptr);
-  const pid_t child = fork();
-  if (child == 0) {
-    dup2(in.descriptor(), STDIN_FILENO);
-    dup2(out.descriptor(), STDOUT_FILENO);
-    dup2(err.descriptor(), STDERR_FILENO);
-    execv(GLOBE_PROGRAM, argv.data());
-    _exit(127);
-  }
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  ::dup2(::open((folder / "stdin").c_str(), O_RDONLY), STDIN_FILENO);
+  ::dup2(::open((folder / "stdout").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+  ::dup2(::open((folder / "stderr").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+  become_program(words);
+}
+
+/// The exit code of a child, or 128 + the signal that ended it.
+inline int wait_for(pid_t child) {
   int status = 0;
-  waitpid(child, &status, 0);
-  return {out.content(), err.content(), WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status)};
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// Runs the program to its end.
+inline Outcome run_program(const std::vector<std::string>& words, const std::string& input = "") {
+  const tests::TemporaryFolder folder;
+  const int status = wait_for(start(words, folder.path(), input));
+  return {text_of(folder / "stdout"), text_of(folder / "stderr"), status};
 }
 
 /// The program with pipes at both ends, for tests that wait for an answer before they ask on.
@@ -77,16 +78,12 @@ class Conversation {
   explicit Conversation(const std::vector<std::string>& words) {
     std::array<int, 2> to{}, from{};
     if (pipe(to.data()) != 0 || pipe(from.data()) != 0) return;
-    std::vector<char*> argv{const_cast<char*>(GLOBE_PROGRAM)};
-    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
     child_ = fork();
     if (child_ == 0) {
       dup2(to[0], STDIN_FILENO);
       dup2(from[1], STDOUT_FILENO);
       for (const int end : {to[0], to[1], from[0], from[1]}) close(end);
-      execv(GLOBE_PROGRAM, argv.data());
-      _exit(127);
+      become_program(words);
     }
     close(to[0]);
     close(from[1]);

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "globe/base/error.h"
-#include "tests/unit/scratch_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace app {
 namespace {
+
+using tests::TemporaryFolder;
 
 std::vector<std::uint8_t> shade(int width, int height, std::uint8_t value) {
   return std::vector<std::uint8_t>(static_cast<std::size_t>(width * height) * 4, value);
@@ -85,7 +87,7 @@ TEST(ContactSheet, CaptionsStayInTheirCell) {
 }
 
 TEST(ContactSheet, WritesAPng) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   ContactSheet sheet(3, 32, 32);
   for (int k = 0; k < 3; ++k) sheet.add(k, shade(32, 32, 100));
   sheet.write(folder / "sheet.png", false);

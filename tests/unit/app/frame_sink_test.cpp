@@ -9,11 +9,12 @@
 #include <iterator>
 
 #include "globe/base/error.h"
-#include "tests/unit/scratch_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace app {
 namespace {
 
+using tests::TemporaryFolder;
 using Names = std::set<std::string>;
 
 constexpr int kWidth = 64, kHeight = 48;
@@ -92,7 +93,7 @@ TEST(FrameRate, IsAFractionOfWholeNumbers) {
 }
 
 TEST(FrameSink, NumbersPicturesFromZero) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   film(output_of(folder / "frames/####.png"), 3);
   EXPECT_EQ(folder.contents(), (Names{"frames", "frames/0000.png", "frames/0001.png", "frames/0002.png"}));
   film(output_of(folder / "f%03d.png"), 2);
@@ -102,7 +103,7 @@ TEST(FrameSink, NumbersPicturesFromZero) {
 }
 
 TEST(FrameSink, KeepsTheOrderOfTheFrames) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   film(output_of(folder / "#.png"), 10);
   for (int k = 0; k < 10; ++k) {
     const auto input = OIIO::ImageInput::open((folder / (std::to_string(k) + ".png")).string());
@@ -115,7 +116,7 @@ TEST(FrameSink, KeepsTheOrderOfTheFrames) {
 }
 
 TEST(FrameSink, RefusesASequenceThatExists) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   film(output_of(folder / "##.png"), 5);
   EXPECT_NE(message_of(output_of(folder / "##.png")).find("--overwrite"), std::string::npos);
   FrameOutput output = output_of(folder / "##.png");
@@ -126,7 +127,7 @@ TEST(FrameSink, RefusesASequenceThatExists) {
 }
 
 TEST(FrameSink, LeavesNoPicturesBehindUnfinished) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   {
     FrameSink sink(output_of(folder / "a/b/####.png"));
     for (int k = 0; k < 6; ++k) sink.write(frame(k));
@@ -135,7 +136,7 @@ TEST(FrameSink, LeavesNoPicturesBehindUnfinished) {
 }
 
 TEST(FrameSink, UnknownOutputsAreAMatterOfUsage) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   for (const char* name : {"a.avi", "a.png", "####.jpg", "a", "#a#.png", "%05x.png", "%s.png"}) {
     EXPECT_THROW(FrameSink(output_of(folder / name)), globe::UsageError) << name;
   }
@@ -146,13 +147,13 @@ TEST(FrameSink, UnknownOutputsAreAMatterOfUsage) {
 }
 
 TEST(FrameSink, AFilmWithoutFramesIsAnError) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   EXPECT_NE(message_of(output_of(folder / "#.png"), 0), "");
   EXPECT_EQ(folder.contents(), Names{});
 }
 
 TEST(FrameSink, MissingFfmpegIsSaidAtOnce) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string path = std::getenv("PATH");
   setenv("PATH", "/nowhere", 1);
   std::string message;
@@ -169,7 +170,7 @@ TEST(FrameSink, MissingFfmpegIsSaidAtOnce) {
 
 TEST_P(Film, HasEveryFrame) {
   if (!has_ffprobe()) GTEST_SKIP() << "no ffprobe";
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   FrameOutput output = output_of(folder / GetParam());
   output.fps = 25;
   film(output, 7);
@@ -190,7 +191,7 @@ std::string first_frame(const std::filesystem::path& path) {
 }
 
 TEST_P(Film, ShowsTheColoursAndNoTransparency) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   FrameSink sink(output_of(folder / GetParam()));
   std::vector<std::uint8_t> orange;
   for (int i = 0; i < kWidth * kHeight; ++i) orange.insert(orange.end(), {230, 120, 30, 0});
@@ -206,7 +207,7 @@ TEST_P(Film, ShowsTheColoursAndNoTransparency) {
 }
 
 TEST_P(Film, HasTheSameBytesEveryTime) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   film(output_of(folder / GetParam()), 5);
   const std::string first = bytes_of(folder / GetParam());
   FrameOutput again = output_of(folder / GetParam());
@@ -217,14 +218,14 @@ TEST_P(Film, HasTheSameBytesEveryTime) {
 }
 
 TEST_P(Film, IsRefusedWhenItExists) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder / GetParam()) << "mine";
   EXPECT_NE(message_of(output_of(folder / GetParam())).find("--overwrite"), std::string::npos);
   EXPECT_EQ(bytes_of(folder / GetParam()), "mine");
 }
 
 TEST_P(Film, LeavesNothingBehindUnfinished) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   {
     FrameSink sink(output_of(folder / GetParam()));
     for (int k = 0; k < 8; ++k) sink.write(frame(k));
@@ -237,14 +238,14 @@ INSTANTIATE_TEST_SUITE_P(FrameSink, Film, testing::Values("a.mp4", "a.gif"),
 
 TEST(FrameSink, OddSizesBecomeEvenInMp4) {
   if (!has_ffprobe()) GTEST_SKIP() << "no ffprobe";
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   film({(folder / "a.mp4").string(), 33, 17}, 2);
   EXPECT_EQ(probe(folder / "a.mp4"), "34,18,yuv420p,30/1,2");
 }
 
 TEST(FrameSink, AnEncoderThatDiesIsReportedAndTidiedUp) {
   if (!has_ffmpeg()) GTEST_SKIP() << "no ffmpeg";
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string path = std::getenv("PATH");
   std::ofstream(folder / "ffmpeg") << "#!/bin/sh\necho the disk is made of cheese >&2\nexit 3\n";
   std::filesystem::permissions(folder / "ffmpeg", std::filesystem::perms::owner_all);

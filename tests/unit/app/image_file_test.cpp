@@ -9,11 +9,12 @@
 #include <thread>
 
 #include "globe/base/error.h"
-#include "tests/unit/scratch_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace app {
 namespace {
 
+using tests::TemporaryFolder;
 using Names = std::set<std::string>;
 
 std::string bytes_of(const std::filesystem::path& path) {
@@ -28,7 +29,7 @@ std::vector<std::uint8_t> ramp(int width, int height) {
 }
 
 TEST(ImageFile, PngHoldsTheColoursTopRowFirst) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto rgba = ramp(5, 3);
   write_image(folder / "a.png", {5, 3, rgba}, false);
   const auto input = OIIO::ImageInput::open((folder / "a.png").string());
@@ -42,7 +43,7 @@ TEST(ImageFile, PngHoldsTheColoursTopRowFirst) {
 }
 
 TEST(ImageFile, ExrHoldsTheFloatsExactly) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::vector<float> depth = {0.1f, 1e8f, 3.0f, 1.0f / 3.0f, 12345.678f, 0.0f};
   write_image(folder / "a.exr", 3, 2, {"Z"}, depth, false);
   const auto input = OIIO::ImageInput::open((folder / "a.exr").string());
@@ -54,7 +55,7 @@ TEST(ImageFile, ExrHoldsTheFloatsExactly) {
 }
 
 TEST(ImageFile, BytesDoNotDependOnTheClock) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto rgba = ramp(16, 16);
   const std::vector<float> floats(16 * 16 * 3, 0.25f);
   const auto write_both = [&](const std::string& name) {
@@ -74,7 +75,7 @@ TEST(ImageFile, BytesDoNotDependOnTheClock) {
 }
 
 TEST(ImageFile, RefusesWhatExistsAndWhatItCannotWrite) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto rgba = ramp(4, 4);
   write_image(folder / "a.png", {4, 4, rgba}, false);
   EXPECT_THROW(write_image(folder / "a.png", {4, 4, rgba}, false), globe::Error);

@@ -6,11 +6,12 @@
 #include <iterator>
 
 #include "globe/base/error.h"
-#include "tests/unit/scratch_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace globe {
 namespace {
 
+using tests::TemporaryFolder;
 using Names = std::set<std::string>;
 
 void put(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
@@ -21,7 +22,7 @@ std::string get(const std::filesystem::path& path) {
 }
 
 TEST(PendingFile, AppearsWhenPublished) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   PendingFile file(folder / "a.txt", false);
   EXPECT_EQ(file.temporary().extension(), ".txt");
   EXPECT_EQ(file.temporary().parent_path(), file.final_path().parent_path());
@@ -33,7 +34,7 @@ TEST(PendingFile, AppearsWhenPublished) {
 }
 
 TEST(PendingFile, LeavesNothingUnpublished) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   {
     const PendingFile file(folder / "a.txt", false);
     put(file.temporary(), "half");
@@ -42,7 +43,7 @@ TEST(PendingFile, LeavesNothingUnpublished) {
 }
 
 TEST(PendingFile, KeepsTheOldOneUntilPublished) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   put(folder / "a.txt", "old");
   EXPECT_THROW(PendingFile(folder / "a.txt", false), Error);
   {
@@ -57,12 +58,12 @@ TEST(PendingFile, KeepsTheOldOneUntilPublished) {
 }
 
 TEST(PendingFile, SaysThatTheFolderIsMissing) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   EXPECT_THROW(PendingFile(folder / "gone/a.txt", false), Error);
 }
 
 TEST(PendingFile, FailsWhenNothingWasWritten) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   PendingFile file(folder / "a.txt", false);
   EXPECT_THROW(file.publish(), Error);
   EXPECT_EQ(folder.contents(), Names{});

@@ -8,10 +8,12 @@
 #include "globe/planet/planet_file.h"
 #include "globe/planet/surface.h"
 #include "globe/planet/synthesis.h"
-#include "tests/unit/scratch_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace globe::planet {
 namespace {
+
+using tests::TemporaryFolder;
 
 constexpr int kDataLevel = 7;
 
@@ -55,7 +57,7 @@ class GroundOfDataset : public testing::TestWithParam<const char*> {
         std::make_shared<const Dataset>(Dataset::open(scratch_ / "planet", std::size_t{16} << 20)));
   }
 
-  ScratchFolder scratch_;
+  TemporaryFolder scratch_;
   std::shared_ptr<const Surface> surface_;
 };
 
@@ -109,7 +111,7 @@ TEST_P(GroundOfDataset, IsRoughWhereTheDataAre) {
 INSTANTIATE_TEST_SUITE_P(Bodies, GroundOfDataset, testing::Values("earth", "moon"));
 
 TEST(GroundOfDatasetOfEarth, StillWaterStaysFlat) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   write_planet(scratch / "planet", "earth");
   const auto surface = Surface::from_dataset(
       std::make_shared<const Dataset>(Dataset::open(scratch / "planet", std::size_t{16} << 20)));

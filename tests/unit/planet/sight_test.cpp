@@ -17,7 +17,7 @@
 
 #include "converters/convert.h"
 #include "globe/planet/interpolation.h"
-#include "tests/unit/scratch_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace globe::planet {
 namespace {
@@ -59,7 +59,7 @@ class MapPlanet {
   const Surface* operator->() const { return surface_.get(); }
 
  private:
-  ScratchFolder scratch_;
+  tests::TemporaryFolder scratch_;
   std::shared_ptr<const Surface> surface_;
 };
 
