@@ -1,6 +1,7 @@
 # What everyone needs who includes our headers. -ffp-contract=off keeps the geometry the same on every machine: a fused
 # multiply-add rounds differently from the two operations it replaces (HARD-CASES H5, H8).
 add_library(globe_headers INTERFACE)
+target_compile_features(globe_headers INTERFACE cxx_std_20)
 target_include_directories(globe_headers INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(globe_headers INTERFACE -ffp-contract=off)
 
