@@ -125,6 +125,7 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
   DrawList list = make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), camera,
                                  settings_.clipmap.base_level, 0.0f, true);
   std::vector<Batch> batches;
+  batches.reserve(kLooks.size());
   for (const Look& look : kLooks) {
     batches.push_back({look, look.kind == Kind::kRim ? 1 : 0, 0, {list.batches.front().instances.front()}});
   }
@@ -235,10 +236,11 @@ void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay)
     }
     if (batch.look.kind == Kind::kRim) program.set(2, batch.rim | batch.rim_corners << 3);
     const auto rim = static_cast<std::size_t>(batch.rim);
+    // OpenGL takes an offset into the bound buffer as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
+    const void* const first_index = reinterpret_cast<const void*>(index_offset_[rim]);
     glDrawElementsInstancedBaseInstance(
-        GL_TRIANGLES, static_cast<GLsizei>(mesh_.indices[rim].size()), GL_UNSIGNED_SHORT,
-        static_cast<const char*>(nullptr) + index_offset_[rim], static_cast<GLsizei>(batch.instances.size()),
-        static_cast<GLuint>(first));
+        GL_TRIANGLES, static_cast<GLsizei>(mesh_.indices[rim].size()), GL_UNSIGNED_SHORT, first_index,
+        static_cast<GLsizei>(batch.instances.size()), static_cast<GLuint>(first));
     first += batch.instances.size();
   }
 }
