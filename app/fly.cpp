@@ -14,6 +14,7 @@
 #include "app/commands.h"
 #include "app/contact_sheet.h"
 #include "app/flight_stats.h"
+#include "app/frame_clock.h"
 #include "app/frame_sink.h"
 #include "app/planet_argument.h"
 #include "app/point.h"
@@ -36,6 +37,7 @@ namespace render = globe::render;
 
 constexpr double kOrbit = 20'000'000.0;  ///< metres above the target
 constexpr double kFinalHeight = 200.0;   ///< metres above ground where a flight ends unless --to says more
+constexpr double kLongestTurn = 0.1;     ///< seconds that a film with few frames a second waits for each
 constexpr double kClearance = 2.0;       ///< metres: never closer to the ground
 
 struct FlyOptions {
@@ -172,7 +174,10 @@ void run(const FlyOptions& options) {
                 true, target);
   globe::gl::TimerQuery timer = globe::gl::TimerQuery::create();
   const double aspect = static_cast<double>(size.width) / size.height;
+  FrameClock clock(
+      std::chrono::duration<double>(options.wait ? 0.0 : std::min(1.0 / options.fps, kLongestTurn)));
   for (int k = 0; k < options.frames; ++k) {
+    clock.await_turn();
     const double t = options.frames == 1 ? 1.0 : static_cast<double>(k) / (options.frames - 1);
     geo::Geodetic place;
     const auto begin = std::chrono::steady_clock::now();
@@ -216,7 +221,9 @@ void add_fly(CLI::App& program) {
       ->check(CLI::Range(0.1, 1000.0));
   command->add_option("--stats", options->stats, "JSON file for the figures of every frame");
   command->add_option("--contact-sheet", options->contact_sheet, "PNG file for twelve frames at a glance");
-  command->add_flag("--wait", options->wait, "load each frame wholly: deterministic pictures");
+  command->add_flag(
+      "--wait", options->wait,
+      "load each frame wholly: deterministic pictures; without it frames are drawn in real time");
   command->callback([options] { run(*options); });
 }
 

@@ -95,8 +95,8 @@ TEST(Distance, IsTheSameBothWays) {
   for (int k = 0; k < 2000; ++k) {
     const std::string a = std::to_string(lat(random)) + ' ' + std::to_string(lon(random));
     const std::string b = std::to_string(lat(random)) + ' ' + std::to_string(lon(random));
-    there += a + ' ' + b + '\n';
-    back += b + ' ' + a + '\n';
+    there.append(a).append(" ").append(b).append("\n");
+    back.append(b).append(" ").append(a).append("\n");
   }
   const auto out = run_program({"distance"}, there).lines(), home = run_program({"distance"}, back).lines();
   ASSERT_EQ(out.size(), 2000u);

@@ -23,7 +23,7 @@ using nlohmann::json;
 class FindCommand : public testing::Test {
  protected:
   std::string file(const std::string& name, const std::string& text) const {
-    const std::string path = (folder_ / name).string();
+    std::string path = (folder_ / name).string();
     std::ofstream(path) << text;
     return path;
   }
