@@ -105,6 +105,7 @@ void try_case(const Case& c, std::mt19937_64& random, std::size_t points, Tally&
     }
   }
   std::vector<bool> contained;
+  contained.reserve(places.size());
   for (const dvec3& u : places) contained.push_back(c.region->contains(u));
   for (const int finer : {0, 3, 6}) {
     const int level = level_for(c.reach_rad, finer);
@@ -173,6 +174,7 @@ void add_ellipsoid_cones(std::vector<Case>& cases, std::mt19937_64& random) {
       for (const double part : {1e-10, 1e-3, 0.1, 1.5, 3.0, 3.1}) {
         const double radius_m = part * ellipsoid.a;
         std::vector<dvec3> border;
+        border.reserve(64);
         const globe::geo::GeodesicCircle points(ellipsoid, at, radius_m);
         for (int k = 0; k < 64; ++k) border.push_back(glm::normalize(points.at(0.1 * k)));
         cases.push_back({"ellipsoid cone " + std::to_string(radius_m),

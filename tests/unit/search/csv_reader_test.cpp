@@ -30,8 +30,7 @@ TEST(CsvReader, QuotedFieldsHoldCommasQuotesAndNewlines) {
 
 TEST(CsvReader, LinesEndInEitherWayAndTheLastNeedNot) {
   for (const char* text : {"a,b\nc,d\n", "a,b\r\nc,d\r\n", "a,b\r\nc,d",
-                           "\xEF\xBB\xBF"
-                           "a,b\nc,d",
+                           "\xEF\xBB\xBF\x61,b\nc,d",  // a byte order mark, then a,b
                            "\n a , b \n\n\r\nc,d\n\n"}) {
     const auto records = read(text);
     ASSERT_EQ(records.size(), 2u) << text;

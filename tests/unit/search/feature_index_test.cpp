@@ -218,7 +218,7 @@ TEST(FeatureIndex, TheRadiusIncludesWhatLiesOnIt) {
 TEST(FeatureIndex, TheNearestAreRightWhateverTheirNumber) {
   std::mt19937_64 random(3);
   Places places(random_places(3000, random));
-  for (const std::size_t count : {1, 2, 10, 100, 2999, 3000, 5000}) {
+  for (const std::size_t count : {1u, 2u, 10u, 100u, 2999u, 3000u, 5000u}) {
     for (int k = 0; k < 8; ++k) {
       Query query;
       query.near = random_point(places.all(), random);
