@@ -77,14 +77,22 @@ class LineReader {
   bool in_line_ = false;
 };
 
-std::string error_line(std::size_t line, std::string reason, const RecordOptions& options) {
-  for (char& c : reason) {
+/// Text as every terminal and reader takes it: no control characters, and U+FFFD for what is not UTF-8.
+std::string printable(std::string text) {
+  for (char& c : text) {
     if (static_cast<unsigned char>(c) < ' ') c = ' ';
   }
-  if (options.json) {
-    const nlohmann::ordered_json object{{"line", line}, {"error", reason}};
-    return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  }
+  const nlohmann::json valid = nlohmann::json::parse(
+      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  return valid.get<std::string>();
+}
+
+/// @param line  its number, which operands have in JSON alone
+std::string error_line(std::size_t line, bool from_input, const std::string& what,
+                       const RecordOptions& options) {
+  std::string reason = printable(what);
+  if (options.json) return nlohmann::ordered_json{{"line", line}, {"error", reason}}.dump();
+  if (from_input) reason = "line " + std::to_string(line) + ": " + reason;
   if (!options.csv) return "ERROR: " + reason;
   std::string doubled;
   for (const char c : reason) doubled += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -105,21 +113,24 @@ struct Part {
 using Answer = std::function<std::string(const std::string&)>;
 
 /// @param number  that of the first record, from 1
-Part answer_part(std::span<const std::string> records, std::size_t number, bool with_comments,
+/// @param from_input  of standard input, which may hold comments and whose lines have numbers
+Part answer_part(std::span<const std::string> records, std::size_t number, bool from_input,
                  const RecordOptions& options, const Answer& answer) {
   Part part;
   for (const std::string& record : records) {
     const std::size_t line = number++;
-    if (with_comments && is_comment(record)) {
+    if (from_input && is_comment(record)) {
       if (!options.json && !options.csv) part.text += record + '\n';
       continue;
     }
     try {
       if (record.size() > kLongestRecord)
         throw globe::Error("record", "is too long", "write one record a line");
+      if (record.find('\0') != std::string::npos)
+        throw globe::Error("record", "it holds a NUL byte", "give lines of text");
       part.text += answer(record);
     } catch (const globe::Error& error) {
-      part.text += error_line(line, error.what(), options);
+      part.text += error_line(line, from_input, error.what(), options);
       part.failed = true;
     }
     part.text += '\n';
@@ -130,14 +141,14 @@ Part answer_part(std::span<const std::string> records, std::size_t number, bool 
 
 /// Answers records in parts, on all threads if `threads` says so, and writes them in order. Returns whether
 /// one failed.
-bool write_answers(std::span<const std::string> records, std::size_t number, bool with_comments,
+bool write_answers(std::span<const std::string> records, std::size_t number, bool from_input,
                    const RecordOptions& options, const Answer& answer, Threads threads) {
   constexpr std::size_t kPart = 64;
   std::vector<Part> parts((records.size() + kPart - 1) / kPart);
   const auto answer_one = [&](std::size_t k) {
     const std::size_t first = k * kPart;
     parts[k] = answer_part(records.subspan(first, std::min(kPart, records.size() - first)), number + first,
-                           with_comments, options, answer);
+                           from_input, options, answer);
   };
   if (threads == Threads::kAll && parts.size() > 1) {
     oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), answer_one);

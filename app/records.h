@@ -26,8 +26,9 @@ enum class Threads { kOne, kAll };
 /// Answers each operand, or without operands each line of standard input: one line a record, in order,
 /// flushed whenever the input runs dry.
 ///
-/// A record whose answer throws globe::Error gets `ERROR: reason` (JSON: {"line", "error"}; CSV: one quoted
-/// field) and the rest go on, unless --strict. Blank and # lines pass through as text and vanish in tables.
+/// A record whose answer throws globe::Error gets `ERROR: reason`, from standard input `ERROR: line N:
+/// reason` (JSON: {"line", "error"}; CSV: one quoted field), and the rest go on, unless --strict. Blank and #
+/// lines pass through as text and vanish in tables.
 /// @param csv_header  first line of --csv
 /// @param answer  a record to its line, without the newline; with Threads::kAll called from many threads at
 /// once

@@ -177,6 +177,28 @@ TEST(Lookup, ReadsRecordsFromStandardInputAndPassesCommentsThrough) {
   EXPECT_EQ(lines[4].substr(0, 6), "-5 20 ");
 }
 
+TEST(Lookup, NumbersABinaryLineInItsPlaceAndStaysText) {
+  const std::string input = std::string("1 2\n") + "\xff\x80" + '\0' + "\x01\n" + "\xff\x80\n3 4\n";
+  for (const std::string format : {"", "--csv", "--json"}) {
+    std::vector<std::string> words{"lookup"};
+    if (!format.empty()) words.push_back(format);
+    const Outcome run = run_program(words, input);
+    EXPECT_EQ(run.status, 1);
+    auto lines = run.lines();
+    if (format == "--csv") lines.erase(lines.begin());
+    ASSERT_EQ(lines.size(), 4u) << run.out;
+    const std::string begin = format.empty()      ? "ERROR: line "
+                              : format == "--csv" ? "\"ERROR: line "
+                                                  : R"({"line":)";
+    for (const std::size_t bad : {1u, 2u}) {
+      EXPECT_TRUE(lines[bad].starts_with(begin + std::to_string(bad + 1))) << lines[bad];
+      EXPECT_NE(lines[bad].find("; "), std::string::npos) << "without what to do: " << lines[bad];
+      EXPECT_NO_THROW(nlohmann::json(lines[bad]).dump()) << "not UTF-8";
+    }
+    EXPECT_EQ(run.out.find('\xff'), std::string::npos);
+  }
+}
+
 TEST(Lookup, NumbersTheLinesOfBadRecordsInJson) {
   const Outcome run = run_program({"lookup", "--json"}, "# a comment\n\n1 2\nbad \"one\"\n");
   const auto lines = run.lines();

@@ -30,4 +30,14 @@ inline std::string make_planet(const std::filesystem::path& folder, const std::v
   return (folder / "planet").string();
 }
 
+/// Converts the map that make_planet left in the folder as colours, to a planet without heights; gives its
+/// path.
+inline std::string make_color_planet(const std::filesystem::path& folder) {
+  const std::string planet = (folder / "colors").string();
+  const Outcome made =
+      run_program({"convert", "--color", (folder / "map.tif").string(), "-o", planet, "--quiet"});
+  EXPECT_EQ(made.status, 0) << made.err;
+  return planet;
+}
+
 }  // namespace cli

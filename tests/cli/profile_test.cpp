@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tests/cli/make_planet.h"
+#include "tests/cli/refusals.h"
 #include "tests/cli/run_program.h"
 #include "tests/temporary_folder.h"
 
@@ -150,31 +151,18 @@ TEST(Profile, OfOnePlaceIsThatPlaceTwice) {
 TEST(Profile, RefusesWhatItCannotMeanWithOneLine) {
   const tests::TemporaryFolder folder;
   cli::make_planet(folder.path(), {});
-  const std::string colors = (folder / "colors").string();
-  ASSERT_EQ(
-      run_program({"convert", "--color", (folder / "map.tif").string(), "-o", colors, "--quiet"}).status, 0);
-  struct Case {
-    std::vector<std::string> words;
-    int status;
-  };
-  for (const Case& one :
-       {Case{{"procedural", "0,0"}, 2}, Case{{"procedural", "nan,0", "1,1"}, 2},
-        Case{{"procedural", "91,0", "1,1"}, 2}, Case{{"procedural", "0,0", "1"}, 2},
-        Case{{"procedural", "0,0", "1,1", "--count", "1"}, 2},
-        Case{{"procedural", "0,0", "1,1", "--level", "29"}, 2},
-        Case{{"procedural", "0,0", "1,1", "-o", "x.jpg"}, 2},
-        Case{{"procedural", "0,0", "0,0", "-o", (folder / "x.png").string()}, 2},
-        Case{{"procedural", "0,0", "1,1", "-o", (folder / "no/x.png").string()}, 1},
-        Case{{"procedural", "0,0", "1,1", "-o", "/proc/x.png"}, 1},
-        Case{{(folder / "nowhere").string(), "0,0", "1,1"}, 1}, Case{{colors, "0,0", "1,1"}, 1}}) {
-    std::vector<std::string> words{"profile"};
-    words.insert(words.end(), one.words.begin(), one.words.end());
-    const Outcome run = run_program(words);
-    EXPECT_EQ(run.status, one.status) << words.back() << run.err;
-    EXPECT_EQ(run.out, "");
-    EXPECT_EQ(run.err.substr(0, 7), "globe: ");
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-  }
+  const std::string colors = cli::make_color_planet(folder.path());
+  cli::expect_refusals(
+      "profile", {cli::Refusal{{"procedural", "0,0"}, 2}, cli::Refusal{{"procedural", "nan,0", "1,1"}, 2},
+                  cli::Refusal{{"procedural", "91,0", "1,1"}, 2}, cli::Refusal{{"procedural", "0,0", "1"}, 2},
+                  cli::Refusal{{"procedural", "0,0", "1,1", "--count", "1"}, 2},
+                  cli::Refusal{{"procedural", "0,0", "1,1", "--level", "29"}, 2},
+                  cli::Refusal{{"procedural", "0,0", "1,1", "-o", "x.jpg"}, 2},
+                  cli::Refusal{{"procedural", "0,0", "0,0", "-o", (folder / "x.png").string()}, 2},
+                  cli::Refusal{{"procedural", "0,0", "1,1", "-o", (folder / "no/x.png").string()}, 1},
+                  cli::Refusal{{"procedural", "0,0", "1,1", "-o", "/proc/x.png"}, 1},
+                  cli::Refusal{{(folder / "nowhere").string(), "0,0", "1,1"}, 1},
+                  cli::Refusal{{colors, "0,0", "1,1"}, 1}});
   EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
 }
 

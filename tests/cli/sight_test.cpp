@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/cli/make_planet.h"
+#include "tests/cli/refusals.h"
 #include "tests/cli/run_program.h"
 #include "tests/temporary_folder.h"
 
@@ -132,26 +133,14 @@ TEST(Sight, ManyAnswersAreThoseOfOneByOne) {
 TEST(Sight, RefusesWhatItCannotMeanWithOneLine) {
   const tests::TemporaryFolder folder;
   cli::make_planet(folder.path(), {});
-  const std::string colors = (folder / "colors").string();
-  ASSERT_EQ(
-      run_program({"convert", "--color", (folder / "map.tif").string(), "-o", colors, "--quiet"}).status, 0);
-  struct Case {
-    std::vector<std::string> words;
-    int status;
-  };
-  for (const Case& one :
-       {Case{{}, 2}, Case{{"procedural", "0,0"}, 2}, Case{{"procedural", "0,0", "1,1", "2,2"}, 2},
-        Case{{"procedural", "0,0", "1,1", "--refraction", "1.5"}, 2},
-        Case{{"procedural", "0,0", "1,1", "--refraction", "nan"}, 2},
-        Case{{"procedural", "0,0", "1,1", "--level", "29"}, 2},
-        Case{{(folder / "nowhere").string(), "0,0", "1,1"}, 1}, Case{{colors, "0,0", "1,1"}, 1}}) {
-    std::vector<std::string> words{"sight"};
-    words.insert(words.end(), one.words.begin(), one.words.end());
-    const Outcome run = run_program(words);
-    EXPECT_EQ(run.status, one.status) << words.back() << run.err;
-    EXPECT_EQ(run.out, "");
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-  }
+  const std::string colors = cli::make_color_planet(folder.path());
+  cli::expect_refusals("sight", {cli::Refusal{{}, 2}, cli::Refusal{{"procedural", "0,0"}, 2},
+                                 cli::Refusal{{"procedural", "0,0", "1,1", "2,2"}, 2},
+                                 cli::Refusal{{"procedural", "0,0", "1,1", "--refraction", "1.5"}, 2},
+                                 cli::Refusal{{"procedural", "0,0", "1,1", "--refraction", "nan"}, 2},
+                                 cli::Refusal{{"procedural", "0,0", "1,1", "--level", "29"}, 2},
+                                 cli::Refusal{{(folder / "nowhere").string(), "0,0", "1,1"}, 1},
+                                 cli::Refusal{{colors, "0,0", "1,1"}, 1}});
 }
 
 // The map's pixels are means over 37 km: mountains are lower and broader there, so that eyes stand at the
