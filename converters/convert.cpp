@@ -187,14 +187,16 @@ SourceMap load(PlannedMap& map, MemoryBudget& budget, const Report& report) {
 NodeGrid<float> sample_heights(const SourceMap& source, const PlannedMap& map, MemoryBudget& budget,
                                const Report& report) {
   NodeGrid<float> grid(map.level, 1, budget);
-  const RowSink sink = [&](int d, int i, int j, int count, const float* values) {
-    std::copy_n(values, count, grid.at(d, i, j));
-  };
   const std::function<void(double)> progress = report.stage("sampling heights");
-  sample_nodes(source, map.filter, map.level, sink, [&](double fraction) {
-    grid.drop_pages();
-    progress(fraction);
-  });
+  for (int d = 0; d < globe::planet::kDiamonds; ++d) {
+    const RowSink sink = [&, d](int i, int j, int count, const float* values) {
+      std::copy_n(values, count, grid.at(d, i, j));
+    };
+    sample_nodes(source, map.filter, whole_diamond(d, map.level), sink, [&](double fraction) {
+      grid.drop_pages();
+      progress((d + fraction) / globe::planet::kDiamonds);
+    });
+  }
   return grid;
 }
 
@@ -202,14 +204,16 @@ NodeGrid<std::uint8_t> sample_colors(const SourceMap& source, const PlannedMap& 
                                      const Report& report) {
   const int channels = source.channels();
   NodeGrid<std::uint8_t> grid(map.level, channels, budget);
-  const RowSink sink = [&](int d, int i, int j, int count, const float* values) {
-    std::transform(values, values + count * channels, grid.at(d, i, j), srgb_byte_from_linear);
-  };
   const std::function<void(double)> progress = report.stage("sampling color");
-  sample_nodes(source, map.filter, map.level, sink, [&](double fraction) {
-    grid.drop_pages();
-    progress(fraction);
-  });
+  for (int d = 0; d < globe::planet::kDiamonds; ++d) {
+    const RowSink sink = [&, d](int i, int j, int count, const float* values) {
+      std::transform(values, values + count * channels, grid.at(d, i, j), srgb_byte_from_linear);
+    };
+    sample_nodes(source, map.filter, whole_diamond(d, map.level), sink, [&](double fraction) {
+      grid.drop_pages();
+      progress((d + fraction) / globe::planet::kDiamonds);
+    });
+  }
   return grid;
 }
 

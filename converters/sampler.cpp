@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "converters/footprint.h"
 #include "converters/interpolate.h"
@@ -44,7 +45,7 @@ bool is_pole(int level, int i, int j) {
   return (i == 0 && j == 0) || (i == n && j == n);
 }
 
-/// One block of nodes being sampled.
+/// The nodes of one block being sampled: a rectangle inside kBlockSide cells a side.
 class BlockSampler {
  public:
   BlockSampler(const SourceMap& map, Filter filter, int d, int level, const Rect& block, const RowSink& sink)
@@ -55,7 +56,9 @@ class BlockSampler {
         level_(level),
         block_(block),
         side_(std::min(kBlockSide, nodes_per_side(level))),
-        nodes_(d, level, block.i0, block.j0, side_),
+        cell_i0_(std::min(block.i0 / side_ * side_, nodes_per_side(level) - side_)),
+        cell_j0_(std::min(block.j0 / side_ * side_, nodes_per_side(level) - side_)),
+        nodes_(d, level, cell_i0_, cell_j0_, side_),
         sink_(sink) {
     for (int j = block.j0; j < block.j0 + block.nj; ++j) {
       for (int i = block.i0; i < block.i0 + block.ni; ++i)
@@ -79,7 +82,7 @@ class BlockSampler {
     for (int j = block_.j0; j < block_.j0 + block_.nj; ++j) {
       for (int i = block_.i0; i < block_.i0 + block_.ni; ++i) {
         if (is_pole(level_, i, j)) continue;
-        const bool inside = i > block_.i0 && j > block_.j0 && i < block_.i0 + side_ && j < block_.j0 + side_;
+        const bool inside = i > cell_i0_ && j > cell_j0_ && i < cell_i0_ + side_ && j < cell_j0_ + side_;
         footprints_[index(i, j)] =
             inside ? inner_footprint(i, j) : footprint_of(geometry_, {d_, level_, i, j});
       }
@@ -88,8 +91,8 @@ class BlockSampler {
 
   /// Of both trixels of every cell: the one with the cell's first node, then the other.
   void find_trixel_centres() {
-    for (int j = block_.j0; j < block_.j0 + side_; ++j) {
-      for (int i = block_.i0; i < block_.i0 + side_; ++i) {
+    for (int j = cell_j0_; j < cell_j0_ + side_; ++j) {
+      for (int i = cell_i0_; i < cell_i0_ + side_; ++i) {
         const dvec3& a = nodes_.at(i + 1, j);
         const dvec3& b = nodes_.at(i, j + 1);
         centres_.push_back(place_of(geometry_, trixel_centre(nodes_.at(i, j), a, b)));
@@ -100,7 +103,7 @@ class BlockSampler {
 
   Footprint inner_footprint(int i, int j) const {
     const auto first = [&](int ci, int cj) -> const SamplePlace& {
-      return centres_[static_cast<std::size_t>(2 * ((cj - block_.j0) * side_ + (ci - block_.i0)))];
+      return centres_[static_cast<std::size_t>(2 * ((cj - cell_j0_) * side_ + (ci - cell_i0_)))];
     };
     const auto second = [&](int ci, int cj) -> const SamplePlace& { return (&first(ci, cj))[1]; };
     return make_footprint(geometry_, places_[index(i, j)],
@@ -171,14 +174,14 @@ class BlockSampler {
       for (int i = rect.i0; i < rect.i0 + rect.ni; ++i) {
         float* out = row_.data() + static_cast<std::size_t>(i - rect.i0) * channels;
         if (is_pole(level_, i, j)) {
-          std::fill_n(out, channels, 0.0F);  // sample_poles comes afterwards
+          std::fill_n(out, channels, 0.0F);  // sample_pole comes afterwards
           continue;
         }
         SamplePlace place = places_[index(i, j)];
         const int x = near(geometry_, place.x.whole, reference);
         if (!value_at(i, j, {{x, place.x.fraction}, place.y}, out)) map_.fill(place, out);
       }
-      sink_(d_, rect.i0, j, rect.ni, row_.data());
+      sink_(rect.i0, j, rect.ni, row_.data());
     }
   }
 
@@ -203,6 +206,7 @@ class BlockSampler {
   int level_;
   Rect block_;
   int side_;
+  int cell_i0_, cell_j0_;  ///< first cell of the block
   NodeBlock nodes_;
   const RowSink& sink_;
   std::vector<SamplePlace> places_;
@@ -212,45 +216,63 @@ class BlockSampler {
   std::vector<float> row_;
 };
 
-/// The value of both poles, the same in all four diamonds.
-void sample_poles(const SourceMap& map, Filter filter, int level, const RowSink& sink) {
+/// The value of a pole, the same in all four diamonds.
+void sample_pole(const SourceMap& map, Filter filter, int level, bool north, const RowSink& sink) {
   const MapGeometry& geometry = map.geometry();
-  for (const bool north : {true, false}) {
-    const int at = north ? 0 : nodes_per_side(level);
-    const SamplePlace place = place_of(geometry, globe::planet::node_direction({0, level, at, at}));
-    std::array<float, 4> value{};
-    const int last = geometry.height - 1;
-    const double rim = north ? 0.0 : last;
-    const bool valid = filter == Filter::kArea
-                           ? cap_mean(map, cap_rim(geometry, level, north), north, value.data())
-                           : row_mean(map, static_cast<int>(rim), value.data());
-    if (!valid) map.fill(place, value.data());
-    for (int d = 0; d < kDiamonds; ++d) sink(d, at, at, 1, value.data());
-  }
+  const int at = north ? 0 : nodes_per_side(level);
+  const SamplePlace place = place_of(geometry, globe::planet::node_direction({0, level, at, at}));
+  std::array<float, 4> value{};
+  const bool valid = filter == Filter::kArea
+                         ? cap_mean(map, cap_rim(geometry, level, north), north, value.data())
+                         : row_mean(map, north ? 0 : geometry.height - 1, value.data());
+  if (!valid) map.fill(place, value.data());
+  sink(at, at, 1, value.data());
+}
+
+/// Blocks from the one that holds node `first` to that of node `last`; the last node of a diamond belongs to
+/// the last block.
+struct BlockRange {
+  int first, count;
+};
+BlockRange blocks_of(int first, int last, int side, int n) {
+  const int from = std::min(first / side, n / side - 1);
+  return {from, std::min(last / side, n / side - 1) - from + 1};
+}
+
+/// The nodes of a block that lie in a range: `begin` and how many.
+std::pair<int, int> nodes_of(int block, int side, int n, int first, int count) {
+  const int end = (block + 1) * side == n ? n + 1 : (block + 1) * side;
+  const int begin = std::max(first, block * side);
+  return {begin, std::min(first + count, end) - begin};
 }
 
 }  // namespace
 
-void sample_nodes(const SourceMap& map, Filter filter, int level, const RowSink& sink,
+NodeRect whole_diamond(int d, int level) {
+  return {d, level, 0, 0, nodes_per_side(level) + 1, nodes_per_side(level) + 1};
+}
+
+void sample_nodes(const SourceMap& map, Filter filter, const NodeRect& rect, const RowSink& sink,
                   const std::function<void(double)>& progress) {
-  const int n = nodes_per_side(level);
+  const int n = nodes_per_side(rect.level);
   const int side = std::min(kBlockSide, n);
-  const int across = n / side;
-  const int blocks = kDiamonds * across * across;
+  const BlockRange across = blocks_of(rect.i0, rect.i0 + rect.ni - 1, side, n);
+  const BlockRange down = blocks_of(rect.j0, rect.j0 + rect.nj - 1, side, n);
   std::atomic<int> done = 0;
-  tbb::parallel_for(0, blocks, [&](int block) {
-    const int d = block / (across * across);
-    const int i = block % across * side;
-    const int j = block / across % across * side;
-    const Rect rect{i, j, i + side == n ? side + 1 : side, j + side == n ? side + 1 : side};
-    BlockSampler(map, filter, d, level, rect, sink).run();
+  // Along i first: rows of one diamond then cross the map from north to south, and what is read of it at a
+  // time is a band.
+  tbb::parallel_for(0, across.count * down.count, [&](int block) {
+    const auto [i, ni] = nodes_of(across.first + block / down.count, side, n, rect.i0, rect.ni);
+    const auto [j, nj] = nodes_of(down.first + block % down.count, side, n, rect.j0, rect.nj);
+    BlockSampler(map, filter, rect.d, rect.level, {i, j, ni, nj}, sink).run();
     const int now = ++done;
     if (now % kBlocksBetweenDrops == 0) {
       map.drop_pages();
-      progress(double(now) / blocks);
+      progress(double(now) / (across.count * down.count));
     }
   });
-  sample_poles(map, filter, level, sink);
+  if (rect.i0 == 0 && rect.j0 == 0) sample_pole(map, filter, rect.level, true, sink);
+  if (rect.i0 + rect.ni > n && rect.j0 + rect.nj > n) sample_pole(map, filter, rect.level, false, sink);
 }
 
 }  // namespace converters

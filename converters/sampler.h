@@ -8,14 +8,23 @@ namespace converters {
 
 enum class Filter { kNearest, kBilinear, kBicubic, kArea };
 
-/// Takes the values of nodes i .. i+count-1 of row j of diamond d. Called from several threads, once for each
-/// node.
-using RowSink = std::function<void(int d, int i, int j, int count, const float* values)>;
+/// Nodes i0 .. i0+ni-1, j0 .. j0+nj-1 of a diamond, all of them in it (0 .. 2^level).
+struct NodeRect {
+  int d = 0, level = 0;
+  int i0 = 0, j0 = 0, ni = 0, nj = 0;
+};
 
-/// Value of the map at every node of a level, all four diamonds, on the threads of the calling arena.
+/// All nodes of a diamond.
+NodeRect whole_diamond(int d, int level);
+
+/// Takes the values of nodes i .. i+count-1 of row j of the rectangle's diamond. Called from several threads,
+/// once for each node but a pole, which comes once more.
+using RowSink = std::function<void(int i, int j, int count, const float* values)>;
+
+/// Value of the map at every node of a rectangle, on the threads of the calling arena.
 ///
 /// Each node is sampled at its own latitude and longitude, and its value depends on the vertex alone: nodes
-/// that diamonds share get equal bits, whatever the number of threads.
+/// that diamonds or rectangles share get equal bits, whatever the number of threads.
 ///
 /// - nearest: the sample whose area holds the node.
 /// - bilinear, bicubic (Catmull-Rom, kept within the range of its 4x4 samples): across longitude 180 and the
@@ -24,7 +33,7 @@ using RowSink = std::function<void(int d, int i, int j, int count, const float* 
 /// - area: mean of the map, joined bilinearly, over the node's footprint (footprint.h).
 ///
 /// Voids take no part: the rest of the weights is scaled up; where nothing valid is left, SourceMap::fill.
-void sample_nodes(const SourceMap& map, Filter filter, int level, const RowSink& sink,
+void sample_nodes(const SourceMap& map, Filter filter, const NodeRect& rect, const RowSink& sink,
                   const std::function<void(double)>& progress);
 
 }  // namespace converters

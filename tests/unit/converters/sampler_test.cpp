@@ -256,6 +256,39 @@ TEST(SampleNodes, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
+TEST(SampleNodes, GivesAnyRectangleTheBitsOfTheWhole) {
+  MemoryBudget budget = plenty();
+  const SourceMap map = height_map(geometry_of(600, 300), random_value, budget);
+  constexpr int kLevel = 8;
+  const NodeRect rects[] = {{0, kLevel, 0, 64, 257, 64},   // a block row
+                            {1, kLevel, 0, 192, 257, 65},  // the last one, with the pole
+                            {2, kLevel, 0, 0, 1, 1},       // a pole alone
+                            {3, kLevel, 256, 256, 1, 1},   // the other
+                            {0, kLevel, 61, 3, 70, 130},   // across blocks, aligned to nothing
+                            {1, kLevel, 250, 120, 7, 5},   // at the border
+                            {2, kLevel, 255, 254, 2, 3}};
+  for (const Filter filter : kAllFilters) {
+    const NodeGrid<float> whole = test::sample(map, filter, kLevel, budget);
+    for (const NodeRect& rect : rects) {
+      std::vector<float> part(static_cast<std::size_t>(rect.ni * rect.nj), kNan);
+      sample_nodes(
+          map, filter, rect,
+          [&](int i, int j, int count, const float* values) {
+            std::copy_n(values, count,
+                        part.begin() + static_cast<std::ptrdiff_t>((j - rect.j0) * rect.ni + i - rect.i0));
+          },
+          [](double) {});
+      for (int j = 0; j < rect.nj; ++j) {
+        for (int i = 0; i < rect.ni; ++i) {
+          ASSERT_EQ(part[static_cast<std::size_t>(j * rect.ni + i)],
+                    *whole.at(rect.d, rect.i0 + i, rect.j0 + j))
+              << rect.d << ": " << rect.i0 + i << ", " << rect.j0 + j;
+        }
+      }
+    }
+  }
+}
+
 TEST(SampleNodes, FillsVoidsFromTheirNeighboursAndStaysWithinTheirRange) {
   MemoryBudget budget = plenty();
   const float voids[] = {kNan, std::numeric_limits<float>::infinity(),

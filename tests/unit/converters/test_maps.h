@@ -77,12 +77,14 @@ inline SourceMap height_map(const MapGeometry& geometry,
 /// Samples a map of heights at every node of a level.
 inline NodeGrid<float> sample(const SourceMap& map, Filter filter, int level, MemoryBudget& budget) {
   NodeGrid<float> grid(level, map.channels(), budget);
-  sample_nodes(
-      map, filter, level,
-      [&](int d, int i, int j, int count, const float* values) {
-        std::copy_n(values, count * map.channels(), grid.at(d, i, j));
-      },
-      [](double) {});
+  for (int d = 0; d < globe::planet::kDiamonds; ++d) {
+    sample_nodes(
+        map, filter, whole_diamond(d, level),
+        [&](int i, int j, int count, const float* values) {
+          std::copy_n(values, count * map.channels(), grid.at(d, i, j));
+        },
+        [](double) {});
+  }
   return grid;
 }
 
