@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -47,6 +48,24 @@ Buffer::Buffer(std::size_t bytes, MemoryBudget& budget) : bytes_(bytes) {
     }
   }
   data_ = map_nameless_file(bytes, budget.scratch_folder);
+}
+
+Buffer::Buffer(const std::filesystem::path& file, std::size_t bytes) : bytes_(bytes) {
+  const auto refuse = [&](const std::string& why) -> globe::Error {
+    return {file.string(), "cannot be read (" + why + ")", "remove its folder and convert again"};
+  };
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) throw refuse(std::strerror(errno));
+  struct stat status {};
+  void* data = MAP_FAILED;
+  std::string why = "not the size it should have";
+  if (::fstat(descriptor, &status) == 0 && static_cast<std::size_t>(status.st_size) == bytes) {
+    data = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+    why = std::strerror(errno);
+  }
+  ::close(descriptor);
+  if (data == MAP_FAILED) throw refuse(why);
+  data_ = static_cast<std::byte*>(data);
 }
 
 Buffer::~Buffer() {

@@ -18,6 +18,9 @@ class Buffer {
   Buffer() = default;
   /// Throws globe::Error when neither memory nor disk has room.
   Buffer(std::size_t bytes, MemoryBudget& budget);
+  /// The contents of a file, mapped; changes reach the file. Throws globe::Error when it cannot be mapped or
+  /// is not of that size.
+  Buffer(const std::filesystem::path& file, std::size_t bytes);
   ~Buffer();
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;

@@ -1,19 +1,24 @@
 #include "converters/convert.h"
 
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <limits>
 #include <thread>
+#include <utility>
 
 #include "converters/body.h"
 #include "converters/layer_output.h"
 #include "converters/map_plan.h"
 #include "converters/number_text.h"
 #include "converters/output_folder.h"
+#include "converters/recipe.h"
 #include "converters/report.h"
-#include "converters/srgb.h"
+#include "globe/base/error.h"
 
 namespace converters {
 namespace {
@@ -24,117 +29,256 @@ using globe::geo::Ellipsoid;
 /// and windows.
 constexpr std::size_t kReservedBytes = std::size_t{160} << 20;
 
-NodeGrid<float> sample_heights(const SourceMap& source, const PlannedMap& map, MemoryBudget& budget,
-                               const Report& report) {
-  NodeGrid<float> grid(map.level, 1, budget);
-  const std::function<void(double)> progress = report.stage("sampling heights");
-  for (int d = 0; d < globe::planet::kDiamonds; ++d) {
-    const RowSink sink = [&, d](int i, int j, int count, const float* values) {
-      std::copy_n(values, count, grid.at(d, i, j));
-    };
-    sample_nodes(source, map.filter, whole_diamond(d, map.level), sink, [&](double fraction) {
-      grid.drop_pages();
-      progress((d + fraction) / globe::planet::kDiamonds);
-    });
-  }
-  return grid;
-}
-
-NodeGrid<std::uint8_t> sample_colors(const SourceMap& source, const PlannedMap& map, MemoryBudget& budget,
-                                     const Report& report) {
-  const int channels = source.channels();
-  NodeGrid<std::uint8_t> grid(map.level, channels, budget);
-  const std::function<void(double)> progress = report.stage("sampling color");
-  for (int d = 0; d < globe::planet::kDiamonds; ++d) {
-    const RowSink sink = [&, d](int i, int j, int count, const float* values) {
-      std::transform(values, values + count * channels, grid.at(d, i, j), srgb_byte_from_linear);
-    };
-    sample_nodes(source, map.filter, whole_diamond(d, map.level), sink, [&](double fraction) {
-      grid.drop_pages();
-      progress((d + fraction) / globe::planet::kDiamonds);
-    });
-  }
-  return grid;
-}
-
-/// The layers of one map, written into the folder. Reading stays outside the arena: OpenImageIO has threads
-/// of its own, which do not go well with tasks that wait.
-std::vector<globe::planet::StoredLayer> convert_map(PlannedMap& map, const Ellipsoid& ellipsoid,
-                                                    tbb::task_arena& arena, MemoryBudget& budget,
-                                                    const Report& report) {
-  std::optional<SourceMap> source = load_map(map, budget, report);
-  std::vector<globe::planet::StoredLayer> stored;
-  arena.execute([&] {
-    std::vector<LayerOutput> layers;
-    if (map.rule.kind == MapKind::kHeights) {
-      NodeGrid<float> heights = sample_heights(*source, map, budget, report);
-      source.reset();
-      layers = height_layers(std::move(heights), ellipsoid, budget);
-    } else {
-      NodeGrid<std::uint8_t> colors = sample_colors(*source, map, budget, report);
-      source.reset();
-      layers.push_back(color_layer(std::move(colors), budget));
-    }
-    const std::string what = map.rule.kind == MapKind::kHeights ? "heights" : "color";
-    stored = write_layers(layers, budget.scratch_folder, report.stage("writing " + what));
-  });
-  return stored;
-}
-
-void append(std::vector<globe::planet::StoredLayer>& to, std::vector<globe::planet::StoredLayer> from) {
-  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
-}
+/// What one job takes while it runs: the values of its columns, and a window of the map.
+constexpr std::size_t kJobBytes = std::size_t{48} << 20;
 
 std::size_t default_memory() {
   return static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) *
          static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) / 2;
 }
 
-}  // namespace
+/// A map and the jobs that convert it.
+struct Task {
+  PlannedMap map;
+  std::vector<Job> jobs;
 
-void convert(const ConvertOptions& options, const ConvertListener& listener) {
-  const Report report(listener);
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const Ellipsoid ellipsoid = options.ellipsoid.value_or(globe::geo::kWgs84);
+  explicit Task(PlannedMap planned) : map(std::move(planned)), jobs(jobs_of(map.rule.kind, map.level)) {}
+  std::string what() const { return map.rule.kind == MapKind::kHeights ? "heights" : "color"; }
+};
+
+Ellipsoid ellipsoid_of(const ConvertOptions& options) {
+  return options.ellipsoid.value_or(globe::geo::kWgs84);
+}
+
+int threads_of(const ConvertOptions& options) {
+  return options.threads > 0 ? options.threads
+                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+std::vector<Task> plan(const ConvertOptions& options, const Report& report) {
+  const Ellipsoid ellipsoid = ellipsoid_of(options);
   report.note("ellipsoid a = " + number_text(ellipsoid.a) +
               " m, f = " + (ellipsoid.f == 0.0 ? "0" : "1/" + number_text(1.0 / ellipsoid.f)) +
               (options.ellipsoid ? "" : " (wgs84 assumed; --ellipsoid)"));
-  std::optional<PlannedMap> heights;
-  std::optional<PlannedMap> colors;
-  if (options.heights)
-    heights =
-        plan_map(*options.heights, MapKind::kHeights, options.level, options, ellipsoid, threads, report);
+  const int threads = threads_of(options);
+  std::vector<Task> tasks;
+  if (options.heights) {
+    tasks.emplace_back(
+        plan_map(*options.heights, MapKind::kHeights, options.level, options, ellipsoid, threads, report));
+  }
   if (options.colors) {
-    colors = plan_map(*options.colors, MapKind::kColors, heights ? std::nullopt : options.level, options,
-                      ellipsoid, threads, report);
+    tasks.emplace_back(plan_map(*options.colors, MapKind::kColors,
+                                options.heights ? std::nullopt : options.level, options, ellipsoid, threads,
+                                report));
+  }
+  return tasks;
+}
+
+/// A conversion under way.
+class Conversion {
+ public:
+  Conversion(const ConvertOptions& options, const Report& report, std::vector<Task> tasks,
+             OutputFolder::Sharing sharing)
+      : options_(options),
+        report_(report),
+        ellipsoid_(ellipsoid_of(options)),
+        threads_(threads_of(options)),
+        tasks_(std::move(tasks)),
+        output_(options.planet, options.overwrite, recipe_of(options), sharing),
+        limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
+        arena_(threads_) {
+    const std::size_t cap = options.memory_bytes > 0 ? options.memory_bytes : default_memory();
+    const std::size_t free = cap - std::min(cap, kReservedBytes);
+    workers_ = static_cast<int>(
+        std::clamp<std::size_t>(free / 2 / kJobBytes, 1, static_cast<std::size_t>(threads_)));
+    const std::size_t for_jobs = static_cast<std::size_t>(workers_) * kJobBytes;
+    budget_ = {free - std::min(free, for_jobs), output_.path()};
   }
 
-  OutputFolder output(options.planet, options.overwrite);
-  const std::size_t cap = options.memory_bytes > 0 ? options.memory_bytes : default_memory();
-  MemoryBudget budget{cap - std::min(cap, kReservedBytes), output.path()};
-  globe::planet::PlanetFile file;
-  const std::filesystem::path name =
-      options.planet.has_filename() ? options.planet : options.planet.parent_path();
-  file.info.name = name.filename().string();
-  file.info.body = body_of(ellipsoid);
-  file.info.ellipsoid = ellipsoid;
-  file.info.vertical_datum = "unknown";
-  file.info.tile_size = kTileSize;
-  file.info.credits = options.credits;
+  const std::vector<Task>& tasks() const { return tasks_; }
 
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  for (std::optional<PlannedMap>* map : {&heights, &colors}) {
-    if (!*map) continue;
-    append(file.layers, convert_map(**map, ellipsoid, arena, budget, report));
-    file.info.credits.push_back(credit_of(**map));
+  void run_jobs(Team& team) {
+    const std::size_t done = done_jobs(), all = all_jobs();
+    if (done > 0) {
+      report_.note("going on where " + output_.path().string() + " was left: " + std::to_string(done) +
+                   " of " + std::to_string(all) + " parts are done");
+    }
+    for (std::size_t list = 0; list < tasks_.size(); ++list) run_jobs(team, list);
   }
-  file.info.credits.push_back("converted by " + options.program_version);
-  globe::planet::write_planet_file(output.path(), std::move(file));
-  output.finish();
+
+  bool all_done() const { return done_jobs() == all_jobs(); }
+  std::size_t done_jobs() const {
+    std::size_t done = 0;
+    for (const Task& task : tasks_) {
+      done += static_cast<std::size_t>(std::count_if(
+          task.jobs.begin(), task.jobs.end(), [&](const Job& job) { return output_.done(job).has_value(); }));
+    }
+    return done;
+  }
+  std::size_t all_jobs() const {
+    std::size_t all = 0;
+    for (const Task& task : tasks_) all += task.jobs.size();
+    return all;
+  }
+  OutputFolder& output() { return output_; }
+
+  /// Everything after the jobs: coarser levels, the files, planet.json, the name.
+  void finish() {
+    globe::planet::PlanetFile file;
+    const std::filesystem::path name =
+        options_.planet.has_filename() ? options_.planet : options_.planet.parent_path();
+    file.info.name = name.filename().string();
+    file.info.body = body_of(ellipsoid_);
+    file.info.ellipsoid = ellipsoid_;
+    file.info.vertical_datum = "unknown";
+    file.info.tile_size = kTileSize;
+    file.info.credits = options_.credits;
+    for (const Task& task : tasks_) {
+      std::vector<globe::planet::StoredLayer> layers = write(task);
+      file.layers.insert(file.layers.end(), std::make_move_iterator(layers.begin()),
+                         std::make_move_iterator(layers.end()));
+      file.info.credits.push_back(credit_of(task.map));
+    }
+    file.info.credits.push_back("converted by " + options_.program_version);
+    globe::planet::write_planet_file(output_.path(), std::move(file));
+    output_.finish();
+  }
+
+ private:
+  /// Reading the map stays outside the arena: OpenImageIO has threads of its own, which do not go well with
+  /// tasks that wait.
+  void run_jobs(Team& team, std::size_t list) {
+    Task& task = tasks_[list];
+    std::optional<SourceMap> source;
+    const std::function<void(double)> progress = report_.stage("converting " + task.what());
+    std::size_t first = team.claim(list);
+    while (first < task.jobs.size() && output_.done(task.jobs[first])) first = team.claim(list);
+    if (first >= task.jobs.size()) return;
+    source = load_map(task.map, budget_, report_);
+    std::atomic<double> done = static_cast<double>(std::count_if(
+        task.jobs.begin(), task.jobs.end(), [&](const Job& job) { return output_.done(job).has_value(); }));
+    const NodeSource nodes = [&](const NodeRect& rect, const RowSink& sink) {
+      sample_nodes(*source, task.map.filter, rect, sink, [](double) {});
+    };
+    const auto run = [&](const Job& job) {
+      double before = 0;
+      const Range range = run_job(job, nodes, ellipsoid_, output_.parts(), [&](double now) {
+        const double all = done += now - before;
+        before = now;
+        progress(std::min(1.0, all / static_cast<double>(task.jobs.size())));
+      });
+      output_.mark_done(job, range);
+    };
+    std::atomic<std::size_t> given = first;  // to the first worker
+    arena_.execute([&] {
+      tbb::parallel_for(
+          0, workers_, 1,
+          [&](int) {
+            std::size_t k = given.exchange(task.jobs.size());
+            if (k >= task.jobs.size()) k = team.claim(list);
+            for (; k < task.jobs.size(); k = team.claim(list)) {
+              // A worker that waits for its own blocks must not begin another's job meanwhile.
+              if (!output_.done(task.jobs[k])) tbb::this_task_arena::isolate([&] { run(task.jobs[k]); });
+            }
+          },
+          tbb::simple_partitioner{});
+    });
+  }
+
+  Range range_of(const Task& task) const {
+    Range all = output_.done(task.jobs.front()).value();
+    for (const Job& job : task.jobs) {
+      const Range range = output_.done(job).value();
+      all = {std::min(all.min, range.min), std::max(all.max, range.max)};
+    }
+    return all;
+  }
+
+  std::vector<globe::planet::StoredLayer> write(const Task& task) {
+    std::vector<globe::planet::StoredLayer> stored;
+    arena_.execute([&] {
+      std::vector<LayerOutput> layers;
+      if (task.map.rule.kind == MapKind::kHeights) {
+        layers = height_layers(task.map.level, range_of(task), output_.parts(), ellipsoid_, budget_);
+      } else {
+        layers.push_back(color_layer(task.map.level, output_.parts(), budget_));
+      }
+      stored = write_layers(layers, output_.path(), report_.stage("writing " + task.what()));
+    });
+    return stored;
+  }
+
+  const ConvertOptions& options_;
+  const Report& report_;
+  Ellipsoid ellipsoid_;
+  int threads_;
+  std::vector<Task> tasks_;
+  OutputFolder output_;
+  tbb::global_control limit_;
+  tbb::task_arena arena_;
+  int workers_ = 1;  ///< jobs at a time
+  MemoryBudget budget_;
+};
+
+/// One job of the list of all, by its number.
+class OneJob : public Team {
+ public:
+  OneJob(const std::vector<Task>& tasks, std::size_t number) {
+    for (const Task& task : tasks) {
+      const bool here = number < task.jobs.size();
+      given_.push_back(here ? number : task.jobs.size());
+      number = here ? std::numeric_limits<std::size_t>::max() : number - task.jobs.size();
+    }
+  }
+  std::size_t claim(std::size_t list) override {
+    return std::exchange(given_[list], std::numeric_limits<std::size_t>::max());
+  }
+  bool gather(bool all_done) override { return all_done; }
+
+ private:
+  std::vector<std::size_t> given_;
+};
+
+}  // namespace
+
+std::vector<Job> list_jobs(const ConvertOptions& options, const ConvertListener& listener) {
+  const Report report(listener);
+  std::vector<Job> jobs;
+  for (const Task& task : plan(options, report)) jobs.insert(jobs.end(), task.jobs.begin(), task.jobs.end());
+  return jobs;
+}
+
+void convert(const ConvertOptions& options, const ConvertListener& listener) {
+  const Report report(listener);
+  Conversion conversion(options, report, plan(options, report), OutputFolder::Sharing::kAlone);
+  Alone team(conversion.tasks().size());
+  conversion.run_jobs(team);
+  conversion.finish();
+}
+
+void convert_with(Team& team, const ConvertOptions& options, const ConvertListener& listener) {
+  const Report report(listener);
+  Conversion conversion(options, report, plan(options, report), OutputFolder::Sharing::kInTeam);
+  conversion.run_jobs(team);
+  if (team.gather(conversion.all_done()) && conversion.output().take_over()) conversion.finish();
+}
+
+bool convert_job(int number, const ConvertOptions& options, const ConvertListener& listener) {
+  const Report report(listener);
+  Conversion conversion(options, report, plan(options, report), OutputFolder::Sharing::kInTeam);
+  if (number < 0 || static_cast<std::size_t>(number) >= conversion.all_jobs()) {
+    throw globe::UsageError("--job " + std::to_string(number),
+                            "there are jobs 0 to " + std::to_string(conversion.all_jobs() - 1), "see --jobs");
+  }
+  OneJob team(conversion.tasks(), static_cast<std::size_t>(number));
+  conversion.run_jobs(team);
+  if (!team.gather(conversion.all_done())) {
+    report.note("job " + std::to_string(number) + " is done, " + std::to_string(conversion.done_jobs()) +
+                " of " + std::to_string(conversion.all_jobs()));
+    return false;
+  }
+  if (conversion.output().take_over()) conversion.finish();
+  return true;
 }
 
 }  // namespace converters

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "converters/job.h"
 #include "converters/map_geometry.h"
 #include "converters/sampler.h"
+#include "converters/team.h"
 #include "globe/geo/ellipsoid.h"
 
 namespace converters {
@@ -50,7 +52,18 @@ struct ConvertListener {
 int default_level(const MapGeometry& geometry);
 
 /// Converts maps of a whole planet to a planet folder. The same inputs and options give the same bytes,
-/// whatever the threads and memory. Throws globe::Error; then no planet is left behind.
+/// whatever the threads, the memory and the way the work was shared. Throws globe::Error; what is done by
+/// then stays in PLANET.partial, and the same call goes on from there.
 void convert(const ConvertOptions& options, const ConvertListener& listener);
+
+/// The jobs that conversion falls into, in the order of their numbers. They need nothing of one another.
+std::vector<Job> list_jobs(const ConvertOptions& options, const ConvertListener& listener);
+
+/// Does one job. The one that is done last finishes the planet, and then it is true. Any number of processes
+/// may do so at the same time on a shared file system. Throws globe::UsageError for a number out of range.
+bool convert_job(int number, const ConvertOptions& options, const ConvertListener& listener);
+
+/// Converts together with the other members of a team.
+void convert_with(Team& team, const ConvertOptions& options, const ConvertListener& listener);
 
 }  // namespace converters

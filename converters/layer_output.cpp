@@ -28,6 +28,7 @@ void write_file(const LayerOutput& layer, int d, const std::filesystem::path& pa
       });
     }
   };
+  if (!layer.parts.empty()) writer.write_level(layer.parts[static_cast<std::size_t>(d)], written);
   write_levels(layer.values);
   write_levels(layer.bytes);
   writer.finish();
@@ -43,14 +44,21 @@ double samples_of(const globe::planet::StoredLayer& layer) {
   return samples;
 }
 
+/// The tiles of a layer, by diamond.
+std::vector<std::vector<std::filesystem::path>> parts_of(MapKind map, int level, const PartFiles& files) {
+  std::vector<std::vector<std::filesystem::path>> parts(kDiamonds);
+  for (const Job& job : jobs_of(map, level))
+    parts[static_cast<std::size_t>(job.d)].push_back(files.tiles(job));
+  return parts;
+}
+
 }  // namespace
 
-std::vector<LayerOutput> height_layers(NodeGrid<float> heights, const globe::geo::Ellipsoid& ellipsoid,
-                                       MemoryBudget& budget) {
-  const int level = heights.level();
-  const Range all = range(heights);
+std::vector<LayerOutput> height_layers(int level, const Range& all, const PartFiles& files,
+                                       const globe::geo::Ellipsoid& ellipsoid, MemoryBudget& budget) {
   std::vector<LayerOutput> layers(4);
   layers[0].stored = {{"height", level, 1, "float32", all.min, all.max}, level, {}};
+  layers[0].parts = parts_of(MapKind::kHeights, level, files);
   layers[1].stored = {{"relief", level, 1, "float32", all.min, all.max}, level - 1, {}};
   const int block_level = globe::planet::block_level(level);
   layers[2].stored = {{"height_range", block_level, 2, "float32", all.min, all.max}, block_level, {}};
@@ -58,45 +66,44 @@ std::vector<LayerOutput> height_layers(NodeGrid<float> heights, const globe::geo
 
   std::vector<NodeGrid<float>>& ranges = layers[2].values;
   std::vector<NodeGrid<float>>& means = layers[3].values;
-  ranges.emplace_back(block_level, 2, budget);
-  range_of_heights(heights, ranges.back());
-  means.emplace_back(block_level, 2, budget);
-  mean_of_heights(heights, ellipsoid, means.back());
+  ranges.emplace_back(block_level, 2, files.level("height_range"));
+  means.emplace_back(block_level, 2, files.level("height_mean"));
   for (int k = block_level - 1; k >= 0; --k) {
     ranges.emplace_back(k, 2, budget);
     range_of_ranges(ranges[ranges.size() - 2], ranges.back());
     means.emplace_back(k, 2, budget);
     mean_of_means(means[means.size() - 2], ellipsoid, means.back());
   }
+  if (level == 0) return layers;
   std::vector<NodeGrid<float>>& height = layers[0].values;
   std::vector<NodeGrid<float>>& relief = layers[1].values;
-  height.push_back(std::move(heights));
-  for (int k = level - 1; k >= 0; --k) {
+  height.emplace_back(level - 1, 1, files.level("height"));
+  relief.emplace_back(level - 1, 1, files.level("relief"));
+  for (int k = level - 2; k >= 0; --k) {
     relief.emplace_back(k, 1, budget);
-    filter(relief.size() > 1 ? relief[relief.size() - 2] : height.front(), relief.back());
+    filter(relief[relief.size() - 2], relief.back());
     height.emplace_back(k, 1, budget);
     subsample(height[height.size() - 2], height.back());
   }
   return layers;
 }
 
-LayerOutput color_layer(NodeGrid<std::uint8_t> colors, MemoryBudget& budget) {
-  const int level = colors.level();
-  const int channels = colors.channels();
+LayerOutput color_layer(int level, const PartFiles& files, MemoryBudget& budget) {
+  constexpr int kChannels = 3;
   LayerOutput layer;
-  layer.stored = {{"color", level, channels, "uint8", 0.0, 1.0}, level, {}};
-  layer.bytes.push_back(std::move(colors));
+  layer.stored = {{"color", level, kChannels, "uint8", 0.0, 1.0}, level, {}};
+  layer.parts = parts_of(MapKind::kColors, level, files);
+  if (level == 0) return layer;
   // The chain of levels stays in linear light, so that rounding to bytes does not add up.
-  NodeGrid<float> fine(level, channels, budget);
-  decode_colors(layer.bytes.front(), fine);
-  for (int k = level - 1; k >= 0; --k) {
-    NodeGrid<float> coarse(k, channels, budget);
+  NodeGrid<float> fine(level - 1, kChannels, files.level("color"));
+  for (int k = level - 1;; --k) {
+    layer.bytes.emplace_back(k, kChannels, budget);
+    encode_colors(fine, layer.bytes.back());
+    if (k == 0) return layer;
+    NodeGrid<float> coarse(k - 1, kChannels, budget);
     filter(fine, coarse);
-    layer.bytes.emplace_back(k, channels, budget);
-    encode_colors(coarse, layer.bytes.back());
     fine = std::move(coarse);
   }
-  return layer;
 }
 
 std::vector<globe::planet::StoredLayer> write_layers(const std::vector<LayerOutput>& layers,
@@ -117,10 +124,12 @@ std::vector<globe::planet::StoredLayer> write_layers(const std::vector<LayerOutp
     if (layer.stored_level < 0) return;
     const std::filesystem::path path = folder / (layer.info.name + "_" + std::to_string(d) + ".tif");
     const double row = (double(globe::planet::nodes_per_side(layer.stored_level)) + 1) * layer.info.channels;
-    write_file(layers[index], static_cast<int>(d), path, [&](int rows) {
+    const std::filesystem::path temporary = path.string() + ".partial";
+    write_file(layers[index], static_cast<int>(d), temporary, [&](int rows) {
       done = done + row * rows;
       progress(std::min(1.0, done / all_samples));
     });
+    std::filesystem::rename(temporary, path);
     stored[index].files[d] = globe::planet::describe_file(path);
   });
   return stored;

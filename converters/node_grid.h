@@ -12,6 +12,10 @@ class NodeGrid {
   NodeGrid(int level, int channels, MemoryBudget& budget)
       : level_(level), channels_(channels), buffer_(4 * diamond_size() * sizeof(T), budget) {}
 
+  /// Those that a LevelFile holds.
+  NodeGrid(int level, int channels, const std::filesystem::path& file)
+      : level_(level), channels_(channels), buffer_(file, 4 * diamond_size() * sizeof(T)) {}
+
   int level() const { return level_; }
   int channels() const { return channels_; }
   int side() const { return globe::planet::nodes_per_side(level_) + 1; }  ///< nodes

@@ -2,11 +2,14 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 
 #include "globe/base/error.h"
 #include "globe/planet/planet_file.h"
@@ -30,35 +33,142 @@ void refuse_existing(const fs::path& planet, bool overwrite) {
   }
 }
 
+/// The whole of a file, or nothing when there is none.
+std::optional<std::string> read_text(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return std::nullopt;
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// Under a temporary name first; the name is ours alone, for others may write the same file.
+void write_text(const fs::path& path, const std::string& text) {
+  const fs::path temporary = path.string() + "." + std::to_string(::getpid()) + ".partial";
+  {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream << text;
+    if (!stream.flush()) {
+      throw globe::Error(path.string(), "cannot be written", "free some disk, then the same command goes on");
+    }
+  }
+  globe::planet::sync_to_disk(temporary);
+  fs::rename(temporary, path);
+}
+
+/// Holds a file's lock; others wait.
+class Lock {
+ public:
+  explicit Lock(const fs::path& path) : file_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    if (file_ >= 0) ::flock(file_, LOCK_EX);
+  }
+  ~Lock() {
+    if (file_ >= 0) ::close(file_);
+  }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  int file_;
+};
+
+fs::path mark_path(const fs::path& work, const Job& job) {
+  return PartFiles{work}.tiles(job).replace_extension(".done");
+}
+
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& planet, bool overwrite)
+OutputFolder::OutputFolder(const fs::path& planet, bool overwrite, const std::string& recipe, Sharing sharing)
     : planet_(planet.has_filename() ? planet : planet.parent_path()),
-      partial_(planet_.string() + ".partial") {
+      partial_(planet_.string() + ".partial"),
+      work_(partial_ / "work"),
+      sharing_(sharing) {
   refuse_existing(planet_, overwrite);
   std::error_code error;
-  fs::create_directories(partial_, error);
+  fs::create_directories(work_, error);
   lock_ = ::open(partial_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) {
-    throw globe::Error(partial_.string(), std::string("cannot be made (") + std::strerror(errno) + ")",
+  if (lock_ < 0 || error) {
+    const std::string why = error ? error.message() : std::strerror(errno);
+    if (lock_ >= 0) ::close(lock_);
+    throw globe::Error(partial_.string(), "cannot be made (" + why + ")",
                        "choose a folder that may be written");
   }
-  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+  if (::flock(lock_, (sharing == Sharing::kAlone ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
     ::close(lock_);
     throw globe::Error(partial_.string(), "another conversion is writing here",
                        "wait for it or choose another name");
   }
-  for (const fs::directory_entry& leftover : fs::directory_iterator(partial_))
-    fs::remove_all(leftover.path());
+  try {
+    set_up(recipe, overwrite);
+  } catch (...) {
+    ::close(lock_);
+    throw;
+  }
+}
+
+void OutputFolder::set_up(const std::string& recipe, bool overwrite) {
+  const Lock lock(work_ / "setup.lock");
+  const fs::path path = work_ / "recipe.json";
+  const std::optional<std::string> begun = read_text(path);
+  if (begun == recipe) return;
+  if (begun && any_done() && !(overwrite && sharing_ == Sharing::kAlone)) {
+    throw globe::Error(partial_.string(), "was begun with other maps or options",
+                       "repeat that command, remove the folder, or choose another name");
+  }
+  clear();
+  write_text(path, recipe);
+}
+
+void OutputFolder::clear() const {
+  for (const fs::path& folder : {partial_, work_}) {
+    for (const fs::directory_entry& leftover : fs::directory_iterator(folder)) {
+      if (leftover.path() != work_ && leftover.path().filename() != "setup.lock")
+        fs::remove_all(leftover.path());
+    }
+  }
+}
+
+bool OutputFolder::any_done() const {
+  for (const fs::directory_entry& file : fs::directory_iterator(work_))
+    if (file.path().extension() == ".done") return true;
+  return false;
+}
+
+std::optional<Range> OutputFolder::done(const Job& job) const {
+  const std::optional<std::string> text = read_text(mark_path(work_, job));
+  if (!text) return std::nullopt;
+  Range range{};
+  std::istringstream stream(*text);
+  stream.imbue(std::locale::classic());
+  if (!(stream >> range.min >> range.max)) return std::nullopt;
+  return range;
+}
+
+void OutputFolder::mark_done(const Job& job, const Range& range) const {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.9g %.9g\n", range.min, range.max);
+  write_text(mark_path(work_, job), text);
+}
+
+bool OutputFolder::take_over() {
+  ::flock(lock_, LOCK_UN);
+  ::flock(lock_, LOCK_EX);
+  struct stat ours {
+  }, named{};
+  const bool same = ::fstat(lock_, &ours) == 0 && ::stat(partial_.c_str(), &named) == 0 &&
+                    ours.st_dev == named.st_dev && ours.st_ino == named.st_ino;
+  finished_ = !same;
+  return same;
 }
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
-  if (!finished_) fs::remove_all(partial_, ignored);
+  if (!finished_ && sharing_ == Sharing::kAlone && !any_done()) fs::remove_all(partial_, ignored);
   ::close(lock_);
 }
 
 void OutputFolder::finish() {
+  fs::remove_all(work_);
   globe::planet::sync_to_disk(partial_);
   const bool replaces = fs::exists(planet_);
   // Exchanging the two names leaves no moment without a planet.

@@ -1,30 +1,60 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "converters/block_row.h"
 
 namespace converters {
 
 /// A planet in the making: everything goes into PLANET.partial, which takes PLANET's name when it is whole.
 ///
-/// A killed program leaves PLANET.partial behind; the next conversion to the same name clears it away. A
-/// failed one (the object dies before finish) removes it.
+/// PLANET.partial/work holds the recipe (what is converted, and how), the parts that are done and a mark for
+/// each. An interrupted conversion leaves it, and the next one with the same recipe goes on from there.
 class OutputFolder {
  public:
+  enum class Sharing {
+    kAlone,   ///< one process converts the planet
+    kInTeam,  ///< several do, each some of its jobs
+  };
+
   /// Throws globe::Error when PLANET exists and may not be replaced (only planets ever are), when another
-  /// conversion is writing it, or the folder cannot be made.
-  OutputFolder(const std::filesystem::path& planet, bool overwrite);
+  /// conversion is writing it, when PLANET.partial has another recipe (unless `overwrite` and alone: then it
+  /// is cleared), or the folder cannot be made.
+  OutputFolder(const std::filesystem::path& planet, bool overwrite, const std::string& recipe,
+               Sharing sharing);
+  /// Removes PLANET.partial when it is ours alone and no job is done.
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
+  /// Where the files of the planet go.
   const std::filesystem::path& path() const { return partial_; }
+  PartFiles parts() const { return {work_}; }
 
-  /// Gives the folder its final name, in one step even when it replaces an older planet.
+  /// Range of the values of a job that is done, else nothing.
+  std::optional<Range> done(const Job& job) const;
+  /// Marks a job as done.
+  void mark_done(const Job& job, const Range& range) const;
+
+  /// Of a team: waits until nobody else is at work. False when another has finished the planet meanwhile.
+  bool take_over();
+
+  /// Gives the folder its final name, in one step even when it replaces an older planet, after planet.json
+  /// has been written.
   void finish();
 
  private:
+  void set_up(const std::string& recipe, bool overwrite);
+  void clear() const;
+  bool any_done() const;
+
   std::filesystem::path planet_;
   std::filesystem::path partial_;
+  std::filesystem::path work_;
+  Sharing sharing_;
   int lock_ = -1;
   bool finished_ = false;
 };

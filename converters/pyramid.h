@@ -15,29 +15,20 @@ void subsample(const NodeGrid<float>& fine, NodeGrid<float>& coarse);
 /// diamonds share get equal bits.
 void filter(const NodeGrid<float>& fine, NodeGrid<float>& coarse);
 
-/// Lowest and highest of the fine samples in each cell of a coarser level, borders included. Nodes i = n or j
-/// = n, which are no cell's first corner, repeat the last cell.
-void range_of_heights(const NodeGrid<float>& heights, NodeGrid<float>& ranges);
-
-/// The same for the next coarser level of ranges.
+/// Lowest and highest of the four cells of the finer level in each cell. Nodes i = n or j = n, which are no
+/// cell's first corner, repeat the last cell.
 void range_of_ranges(const NodeGrid<float>& fine, NodeGrid<float>& coarse);
 
-/// Mean height of the two trixels of each cell of the block level, weighted by area (planet/mean_height.h).
-/// Nodes i = n or j = n repeat the last cell.
-void mean_of_heights(const NodeGrid<float>& heights, const globe::geo::Ellipsoid& ellipsoid,
-                     NodeGrid<float>& means);
-
-/// The same for the next coarser level of means.
+/// Mean height of the two trixels of each cell, from those of the finer level, weighted by area
+/// (planet/mean_height.h). Nodes i = n or j = n repeat the last cell.
 void mean_of_means(const NodeGrid<float>& fine, const globe::geo::Ellipsoid& ellipsoid,
                    NodeGrid<float>& coarse);
 
-/// Linear light of sRGB bytes, and back.
-void decode_colors(const NodeGrid<std::uint8_t>& bytes, NodeGrid<float>& linear);
+/// sRGB bytes of linear light.
 void encode_colors(const NodeGrid<float>& linear, NodeGrid<std::uint8_t>& bytes);
 
 struct Range {
   double min, max;
 };
-Range range(const NodeGrid<float>& grid);
 
 }  // namespace converters

@@ -248,10 +248,6 @@ std::pair<int, int> nodes_of(int block, int side, int n, int first, int count) {
 
 }  // namespace
 
-NodeRect whole_diamond(int d, int level) {
-  return {d, level, 0, 0, nodes_per_side(level) + 1, nodes_per_side(level) + 1};
-}
-
 void sample_nodes(const SourceMap& map, Filter filter, const NodeRect& rect, const RowSink& sink,
                   const std::function<void(double)>& progress) {
   const int n = nodes_per_side(rect.level);

@@ -2,24 +2,19 @@
 
 #include <functional>
 
+#include "converters/node_rect.h"
 #include "converters/source_map.h"
 
 namespace converters {
 
 enum class Filter { kNearest, kBilinear, kBicubic, kArea };
 
-/// Nodes i0 .. i0+ni-1, j0 .. j0+nj-1 of a diamond, all of them in it (0 .. 2^level).
-struct NodeRect {
-  int d = 0, level = 0;
-  int i0 = 0, j0 = 0, ni = 0, nj = 0;
-};
-
-/// All nodes of a diamond.
-NodeRect whole_diamond(int d, int level);
-
 /// Takes the values of nodes i .. i+count-1 of row j of the rectangle's diamond. Called from several threads,
 /// once for each node but a pole, which comes once more.
 using RowSink = std::function<void(int i, int j, int count, const float* values)>;
+
+/// Gives the values of every node of a rectangle to a sink.
+using NodeSource = std::function<void(const NodeRect& rect, const RowSink& sink)>;
 
 /// Value of the map at every node of a rectangle, on the threads of the calling arena.
 ///

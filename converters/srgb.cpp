@@ -33,6 +33,16 @@ double linear_from_srgb(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
+const std::array<float, 256>& linear_from_srgb_bytes() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> made{};
+    for (std::size_t c = 0; c < made.size(); ++c)
+      made[c] = static_cast<float>(linear_from_srgb(double(c) / 255.0));
+    return made;
+  }();
+  return table;
+}
+
 std::uint8_t srgb_byte_from_linear(float linear) {
   static const EncodeTable table;
   if (!(linear > 0.0F)) return 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "converters/layer_output.h"
 #include "globe/planet/grid.h"
@@ -34,18 +36,28 @@ inline void write_node_planet(const std::filesystem::path& folder, int level,
                               const std::string& body = "other") {
   std::filesystem::create_directories(folder);
   converters::MemoryBudget budget{std::size_t{1} << 32, folder};
-  converters::NodeGrid<float> heights(level, 1, budget);
-  for (int d = 0; d < globe::planet::kDiamonds; ++d) {
-    for (int j = 0; j < heights.side(); ++j) {
-      for (int i = 0; i < heights.side(); ++i)
-        *heights.at(d, i, j) = static_cast<float>(height({d, level, i, j}));
+  const converters::PartFiles parts{folder / "work"};
+  std::filesystem::create_directories(parts.folder);
+  const converters::NodeSource nodes = [&](const converters::NodeRect& rect,
+                                           const converters::RowSink& sink) {
+    std::vector<float> row(static_cast<std::size_t>(rect.ni));
+    for (int j = rect.j0; j < rect.j0 + rect.nj; ++j) {
+      for (int i = 0; i < rect.ni; ++i)
+        row[static_cast<std::size_t>(i)] = static_cast<float>(height({rect.d, level, rect.i0 + i, j}));
+      sink(rect.i0, j, rect.ni, row.data());
     }
+  };
+  converters::Range all{1e9, -1e9};
+  for (const converters::Job& job : converters::jobs_of(converters::MapKind::kHeights, level)) {
+    const converters::Range range = converters::run_job(job, nodes, ellipsoid, parts, [](double) {});
+    all = {std::min(all.min, range.min), std::max(all.max, range.max)};
   }
   globe::planet::PlanetFile file;
   file.info = {"nodes", body, "", ellipsoid, "ellipsoid", converters::kTileSize, {}, {}};
-  file.layers = converters::write_layers(converters::height_layers(std::move(heights), ellipsoid, budget),
+  file.layers = converters::write_layers(converters::height_layers(level, all, parts, ellipsoid, budget),
                                          folder, [](double) {});
   globe::planet::write_planet_file(folder, std::move(file));
+  std::filesystem::remove_all(parts.folder);
 }
 
 inline std::shared_ptr<const globe::planet::Surface> open_surface(const std::filesystem::path& folder) {

@@ -41,10 +41,11 @@ TiffLevel LayerFileWriter::next_level() {
 
 void LayerFileWriter::write_level(const void* samples, const std::function<void(int rows)>& written) {
   const TiffLevel level = next_level();
+  const SampleRect rect{samples, level.width, level.height, level.width};
   std::vector<std::byte> tile;
   for (int tj = 0; tj < level.tiles_down(); ++tj) {
     for (int ti = 0; ti < level.tiles_across(); ++ti) {
-      cut_tile(samples, level.width, level.height, ti * tile_size_, tj * tile_size_, level, tile);
+      cut_tile(rect, ti * tile_size_, tj * tile_size_, level, tile);
       file_.write_tile(ti, tj, tile);
     }
     if (written) written(std::min(tile_size_, level.height - tj * tile_size_));

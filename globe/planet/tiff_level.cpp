@@ -50,16 +50,15 @@ std::size_t TiffLevel::tile_bytes() const {
   return static_cast<std::size_t>(tile_size) * static_cast<std::size_t>(tile_size) * sample_bytes();
 }
 
-void cut_tile(const void* samples, int width, int height, int x, int y, const TiffLevel& level,
-              std::vector<std::byte>& tile) {
+void cut_tile(const SampleRect& rect, int x, int y, const TiffLevel& level, std::vector<std::byte>& tile) {
   const auto t = static_cast<std::size_t>(level.tile_size);
   const std::size_t bytes = level.sample_bytes();
   tile.resize(level.tile_bytes());
-  const auto inside = static_cast<std::size_t>(std::min(level.tile_size, width - x));
+  const auto inside = static_cast<std::size_t>(std::min(level.tile_size, rect.width - x));
   for (std::size_t row = 0; row < t; ++row) {
-    const auto from_y = static_cast<std::size_t>(std::min(y + static_cast<int>(row), height - 1));
-    const auto* from = static_cast<const std::byte*>(samples) +
-                       (from_y * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * bytes;
+    const auto from_y = static_cast<std::size_t>(std::min(y + static_cast<int>(row), rect.height - 1));
+    const auto* from = static_cast<const std::byte*>(rect.first) +
+                       (from_y * static_cast<std::size_t>(rect.stride) + static_cast<std::size_t>(x)) * bytes;
     std::byte* to = tile.data() + row * t * bytes;
     std::memcpy(to, from, inside * bytes);
     for (std::size_t column = inside; column < t; ++column)

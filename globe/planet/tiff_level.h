@@ -26,11 +26,16 @@ struct TiffLevel {
   int tiles_down() const { return (height + tile_size - 1) / tile_size; }
 };
 
-/// One tile out of a rectangle of samples in memory, first sample (x, y) of it; what lies beyond the
-/// rectangle repeats its last row and column.
-/// @param width, height  of the rectangle, samples
-void cut_tile(const void* samples, int width, int height, int x, int y, const TiffLevel& level,
-              std::vector<std::byte>& tile);
+/// A rectangle of samples in memory, channels interleaved.
+struct SampleRect {
+  const void* first = nullptr;
+  int width = 0, height = 0;  ///< samples
+  int stride = 0;             ///< samples from row to row
+};
+
+/// The tile of a rectangle that begins at its sample (x, y); what lies beyond the rectangle repeats its last
+/// row and column.
+void cut_tile(const SampleRect& rect, int x, int y, const TiffLevel& level, std::vector<std::byte>& tile);
 
 /// A TIFF being written, level after level. The same samples give the same bytes: no date, host or thread
 /// count gets in. Every function throws Error when the file cannot be written.

@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
-#include "converters/layer_output.h"
 #include "converters/srgb.h"
 #include "tests/unit/converters/test_maps.h"
 
@@ -94,55 +92,6 @@ TEST(Filter, ReachesAcrossTheBordersOfDiamonds) {
   filter(fine, coarse);
   EXPECT_EQ(*coarse.at(1, 0, 2), 1.0F);
   EXPECT_EQ(*coarse.at(2, 2, 0), 1.0F);
-}
-
-TEST(HeightRange, HoldsTheLowestAndHighestSampleOfEveryCell) {
-  MemoryBudget budget = plenty();
-  const int level = 6;
-  const std::vector<LayerOutput> layers = height_layers(hashed(level, 1, budget), globe::geo::kWgs84, budget);
-  const LayerOutput& ranges = layers.at(2);
-  ASSERT_EQ(ranges.stored.info.name, "height_range");
-  ASSERT_EQ(ranges.stored.info.level, level - 3);
-  const NodeGrid<float> heights = hashed(level, 1, budget);
-  for (const NodeGrid<float>& grid : ranges.values) {
-    const int cells = 1 << (level - grid.level());
-    for (int d = 0; d < 4; ++d) {
-      for (int j = 0; j < grid.side(); ++j) {
-        for (int i = 0; i < grid.side(); ++i) {
-          const int i0 = std::min(i, grid.side() - 2) * cells;
-          const int j0 = std::min(j, grid.side() - 2) * cells;
-          float low = 2.0F;
-          float high = -1.0F;
-          for (int y = j0; y <= j0 + cells; ++y) {
-            for (int x = i0; x <= i0 + cells; ++x) {
-              low = std::min(low, *heights.at(d, x, y));
-              high = std::max(high, *heights.at(d, x, y));
-            }
-          }
-          ASSERT_EQ(grid.at(d, i, j)[0], low);
-          ASSERT_EQ(grid.at(d, i, j)[1], high);
-        }
-      }
-    }
-  }
-}
-
-TEST(ColorLayer, AveragesInLinearLight) {
-  // Black and white in equal shares: half the light is byte 188, not 128.
-  MemoryBudget budget = plenty();
-  NodeGrid<std::uint8_t> colors(5, 3, budget);
-  for (int d = 0; d < 4; ++d) {
-    for (int j = 0; j < colors.side(); ++j) {
-      for (int i = 0; i < colors.side(); ++i) {
-        const globe::planet::ivec3 key = globe::planet::octahedral_key({d, 5, i, j});
-        std::fill_n(colors.at(d, i, j), 3, key.z % 2 == 0 ? std::uint8_t{255} : std::uint8_t{0});
-      }
-    }
-  }
-  const LayerOutput layer = color_layer(std::move(colors), budget);
-  EXPECT_EQ(layer.bytes.size(), 6U);
-  EXPECT_EQ(layer.bytes[1].at(0, 5, 4)[1], 188);
-  EXPECT_NEAR(layer.bytes[2].at(0, 3, 2)[1], 188, 1);
 }
 
 }  // namespace
