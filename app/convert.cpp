@@ -37,6 +37,8 @@ struct Arguments {
   std::vector<std::string> credits;
   int memory_mb = 0;
   int threads = 0;
+  bool list_jobs = false;
+  int job = -1;
   bool overwrite = false;
   bool quiet = false;
   std::string progress;
@@ -117,7 +119,15 @@ void convert(const Arguments& arguments) {
   if (!arguments.quiet) listener.note = print;
   listener.warning = [&](const std::string& text) { print("warning: " + text); };
   listener.progress = [&](const std::string& stage, double fraction) { progress.show(stage, fraction); };
-  converters::convert(options, listener);
+  if (arguments.list_jobs) {
+    const std::vector<converters::Job> jobs = converters::list_jobs(options, listener);
+    progress.clear();
+    for (std::size_t k = 0; k < jobs.size(); ++k) std::printf("%zu %s\n", k, name_of(jobs[k]).c_str());
+  } else if (arguments.job >= 0) {
+    converters::convert_job(arguments.job, options, listener);
+  } else {
+    converters::convert(options, listener);
+  }
 }
 
 }  // namespace
@@ -162,6 +172,13 @@ void add_convert(CLI::App& program, int& exit_status) {
                    "MB to use, at least 256; more goes to disk (default: half)")
       ->check(CLI::Range(256, 1 << 24));
   command->add_option("--threads", arguments->threads, "default: all cores")->check(CLI::Range(1, 1024));
+  CLI::Option* list = command->add_flag(
+      "--jobs", arguments->list_jobs, "list the jobs the conversion falls into: number, layer, diamond, row");
+  command
+      ->add_option("--job", arguments->job,
+                   "do this one; many processes may do one each, the last one finishes the planet")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(list);
   command->add_flag("--overwrite", arguments->overwrite, "replace an existing planet");
   command->add_flag("--quiet", arguments->quiet, "warnings and errors only");
   command->add_option("--progress", arguments->progress, "json: a line for each percent, on standard error")
