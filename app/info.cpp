@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double kBuiltinRelief = 9000.0;  ///< metres, up and down: where the built-in planet stays
+using globe::planet::kBuiltinRelief_m;
 
 struct Arguments {
   std::string planet;
@@ -83,7 +83,7 @@ globe::planet::PlanetFile builtin_file(const std::string& planet) {
   globe::planet::PlanetFile file;
   file.info = surface->info();
   globe::planet::StoredLayer heights;
-  heights.info = {"height", surface->data_level(), 1, "computed", -kBuiltinRelief, kBuiltinRelief};
+  heights.info = {"height", surface->data_level(), 1, "computed", -kBuiltinRelief_m, kBuiltinRelief_m};
   file.layers.push_back(heights);
   return file;
 }

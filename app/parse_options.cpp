@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <vector>
 
 #include "globe/base/error.h"
 
@@ -41,6 +40,16 @@ std::optional<double> parse_number(const std::string& text) {
   return value;
 }
 
+std::vector<double> parse_numbers(const std::string& text, char separator) {
+  std::vector<double> numbers;
+  for (const std::string& part : split(text, separator)) {
+    const std::optional<double> value = parse_number(part);
+    if (!value || !std::isfinite(*value)) return {};
+    numbers.push_back(*value);
+  }
+  return numbers;
+}
+
 globe::geo::Ellipsoid parse_ellipsoid(const std::string& text) {
   if (text == "wgs84") return globe::geo::kWgs84;
   if (text == "moon") return globe::geo::kMoon;
@@ -56,13 +65,8 @@ globe::geo::Ellipsoid parse_ellipsoid(const std::string& text) {
 }
 
 converters::Extent parse_extent(const std::string& text) {
-  const std::vector<std::string> parts = split(text, ',');
-  std::vector<double> numbers;
-  for (const std::string& part : parts) {
-    const std::optional<double> value = parse_number(part);
-    if (value && std::isfinite(*value)) numbers.push_back(*value);
-  }
-  if (parts.size() != 4 || numbers.size() != 4 || numbers[0] >= numbers[2] || numbers[1] >= numbers[3]) {
+  const std::vector<double> numbers = parse_numbers(text, ',');
+  if (numbers.size() != 4 || numbers[0] >= numbers[2] || numbers[1] >= numbers[3]) {
     throw globe::UsageError("--extent", "'" + text + "' is not W,S,E,N with W < E and S < N",
                             "give degrees such as 0,-90,360,90");
   }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "converters/raster_source.h"
 #include "globe/geo/ellipsoid.h"
@@ -10,6 +11,9 @@ namespace app {
 
 /// A whole word as a number, whatever the locale; nothing when it is not one.
 std::optional<double> parse_number(const std::string& text);
+
+/// Finite numbers with a separator between them; empty when any word is none.
+std::vector<double> parse_numbers(const std::string& text, char separator);
 
 /// "wgs84", "moon", "mars" or "A,F" (F also as 1/298.257). Throws globe::UsageError.
 globe::geo::Ellipsoid parse_ellipsoid(const std::string& text);

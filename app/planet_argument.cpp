@@ -31,10 +31,17 @@ std::optional<std::uint64_t> procedural_seed(const std::string& planet) {
 }
 
 std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& planet) {
+  return open_planet(planet, kDatasetCache, globe::planet::Surface::kDefaultCache);
+}
+
+std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& planet,
+                                                          std::size_t dataset_cache,
+                                                          std::size_t surface_cache) {
   using globe::planet::Dataset;
   using globe::planet::Surface;
-  if (const auto seed = procedural_seed(planet)) return Surface::builtin(*seed);
-  return Surface::from_dataset(std::make_shared<const Dataset>(Dataset::open(planet, kDatasetCache)));
+  if (const auto seed = procedural_seed(planet)) return Surface::builtin(*seed, surface_cache);
+  return Surface::from_dataset(std::make_shared<const Dataset>(Dataset::open(planet, dataset_cache)),
+                               surface_cache);
 }
 
 void require_heights(const globe::planet::Surface& surface, const std::string& planet) {

@@ -15,6 +15,11 @@ std::optional<std::uint64_t> procedural_seed(const std::string& planet);
 /// Opens PLANET: `procedural[:SEED]` or a folder made by `globe convert`. Throws globe::Error or UsageError.
 std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& planet);
 
+/// The same with so many bytes of decoded data, and of tiles made of them, kept.
+std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& planet,
+                                                          std::size_t dataset_cache,
+                                                          std::size_t surface_cache);
+
 /// Throws globe::Error when the planet was made of a colour map alone.
 void require_heights(const globe::planet::Surface& surface, const std::string& planet);
 

@@ -12,6 +12,9 @@ namespace globe::planet {
 
 using glm::dvec3;
 
+/// Metres, up and down, that the built-in planet's ground stays within at every level.
+inline constexpr double kBuiltinRelief_m = 9000.0;
+
 /// The built-in planet from continents down to some 20 km: a function of the direction alone.
 ///
 /// Continents are cut from a warped fractal field by a hypsometric curve, so that 62 % of the planet is sea
