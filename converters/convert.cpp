@@ -24,15 +24,15 @@ using globe::geo::Ellipsoid;
 /// and windows.
 constexpr std::size_t kReservedBytes = std::size_t{160} << 20;
 
-NodeGrid<float> sample_heights(const SourceMap& source, const PlannedMap& map, MemoryBudget& budget,
+NodeGrid<float> sample_heights(const MapStack& maps, const PlannedMap& map, MemoryBudget& budget,
                                const Report& report) {
   NodeGrid<float> grid(map.level, 1, budget);
   const std::function<void(double)> progress = report.stage("sampling heights");
   for (int d = 0; d < globe::planet::kDiamonds; ++d) {
-    const RowSink sink = [&, d](int i, int j, int count, const float* values) {
+    const RowSink sink = [&, d](int i, int j, int count, const float* values, const float*) {
       std::copy_n(values, count, grid.at(d, i, j));
     };
-    sample_nodes(source, map.filter, whole_diamond(d, map.level), sink, [&](double fraction) {
+    sample_nodes(maps, whole_diamond(d, map.level), Gaps::kFill, sink, [&](double fraction) {
       grid.drop_pages();
       progress((d + fraction) / globe::planet::kDiamonds);
     });
@@ -40,16 +40,16 @@ NodeGrid<float> sample_heights(const SourceMap& source, const PlannedMap& map, M
   return grid;
 }
 
-NodeGrid<std::uint8_t> sample_colors(const SourceMap& source, const PlannedMap& map, MemoryBudget& budget,
+NodeGrid<std::uint8_t> sample_colors(const MapStack& maps, const PlannedMap& map, MemoryBudget& budget,
                                      const Report& report) {
-  const int channels = source.channels();
+  const int channels = maps.channels();
   NodeGrid<std::uint8_t> grid(map.level, channels, budget);
   const std::function<void(double)> progress = report.stage("sampling color");
   for (int d = 0; d < globe::planet::kDiamonds; ++d) {
-    const RowSink sink = [&, d](int i, int j, int count, const float* values) {
+    const RowSink sink = [&, d](int i, int j, int count, const float* values, const float*) {
       std::transform(values, values + count * channels, grid.at(d, i, j), srgb_byte_from_linear);
     };
-    sample_nodes(source, map.filter, whole_diamond(d, map.level), sink, [&](double fraction) {
+    sample_nodes(maps, whole_diamond(d, map.level), Gaps::kFill, sink, [&](double fraction) {
       grid.drop_pages();
       progress((d + fraction) / globe::planet::kDiamonds);
     });
@@ -62,17 +62,18 @@ NodeGrid<std::uint8_t> sample_colors(const SourceMap& source, const PlannedMap& 
 std::vector<globe::planet::StoredLayer> convert_map(PlannedMap& map, const Ellipsoid& ellipsoid,
                                                     tbb::task_arena& arena, MemoryBudget& budget,
                                                     const Report& report) {
-  std::optional<SourceMap> source = load_map(map, budget, report);
+  MapStack maps;
+  maps.add(std::make_shared<SourceMap>(load_map(map, budget, report)), map.filter);
   std::vector<globe::planet::StoredLayer> stored;
   arena.execute([&] {
     std::vector<LayerOutput> layers;
     if (map.rule.kind == MapKind::kHeights) {
-      NodeGrid<float> heights = sample_heights(*source, map, budget, report);
-      source.reset();
+      NodeGrid<float> heights = sample_heights(maps, map, budget, report);
+      maps = {};
       layers = height_layers(std::move(heights), ellipsoid, budget);
     } else {
-      NodeGrid<std::uint8_t> colors = sample_colors(*source, map, budget, report);
-      source.reset();
+      NodeGrid<std::uint8_t> colors = sample_colors(maps, map, budget, report);
+      maps = {};
       layers.push_back(color_layer(std::move(colors), budget));
     }
     const std::string what = map.rule.kind == MapKind::kHeights ? "heights" : "color";
