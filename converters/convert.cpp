@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <memory>
 #include <thread>
 #include <utility>
 
@@ -149,16 +150,16 @@ class Conversion {
   /// tasks that wait.
   void run_jobs(Team& team, std::size_t list) {
     Task& task = tasks_[list];
-    std::optional<SourceMap> source;
     const std::function<void(double)> progress = report_.stage("converting " + task.what());
     std::size_t first = team.claim(list);
     while (first < task.jobs.size() && output_.done(task.jobs[first])) first = team.claim(list);
     if (first >= task.jobs.size()) return;
-    source = load_map(task.map, budget_, report_);
+    MapStack maps;
+    maps.add(std::make_shared<SourceMap>(load_map(task.map, budget_, report_)), task.map.filter);
     std::atomic<double> done = static_cast<double>(std::count_if(
         task.jobs.begin(), task.jobs.end(), [&](const Job& job) { return output_.done(job).has_value(); }));
     const NodeSource nodes = [&](const NodeRect& rect, const RowSink& sink) {
-      sample_nodes(*source, task.map.filter, rect, sink, [](double) {});
+      sample_nodes(maps, rect, Gaps::kFill, sink, [](double) {});
     };
     const auto run = [&](const Job& job) {
       double before = 0;

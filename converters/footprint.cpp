@@ -51,6 +51,12 @@ int ring_of(const Node& node, std::array<dvec3, 6>& ring) {
   return static_cast<int>(kAround.size());
 }
 
+/// Columns in 360 degrees where a map's columns are longitudes and end somewhere; else 0.
+double turn_of(const MapGeometry& geometry) {
+  if (geometry.projection) return geometry.projection->turn() / geometry.factor;
+  return geometry.period > 0 ? 0.0 : 360.0 / geometry.step_deg;
+}
+
 }  // namespace
 
 double Footprint::min_x() const {
@@ -75,13 +81,16 @@ dvec3 trixel_centre(const dvec3& a, const dvec3& b, const dvec3& c) { return glm
 Footprint make_footprint(const MapGeometry& geometry, const SamplePlace& node,
                          const std::array<SamplePlace, 6>& centres, int count) {
   std::array<Footprint::Corner, 6> corner{};  // relative to the node
+  const double turn = turn_of(geometry);
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const SamplePlace& place = centres[k];
+    if (!place.is_somewhere() || !node.is_somewhere()) return {};
     int columns = place.x.whole - node.x.whole;
-    if (columns > geometry.period / 2) columns -= geometry.period;
-    if (columns < -geometry.period / 2) columns += geometry.period;
+    if (geometry.period > 0 && columns > geometry.period / 2) columns -= geometry.period;
+    if (geometry.period > 0 && columns < -geometry.period / 2) columns += geometry.period;
     corner[k] = {columns + (place.x.fraction - node.x.fraction),
                  (place.y.whole - node.y.whole) + (place.y.fraction - node.y.fraction)};
+    if (turn > 0.0) corner[k].x -= turn * std::round(corner[k].x / turn);
   }
   Footprint footprint;
   footprint.count = count;

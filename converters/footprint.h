@@ -22,7 +22,7 @@ struct Footprint {
     double y;
   };
   std::array<Corner, 6> corner;
-  int count = 0;
+  int count = 0;  ///< 0: none, of a node whose surroundings are not all on the map
 
   double min_x() const;
   double max_x() const;
@@ -33,7 +33,8 @@ struct Footprint {
 /// Footprint of a node that is not a pole. Depends on the vertex alone, not on the diamond that names it.
 Footprint footprint_of(const MapGeometry& geometry, const globe::planet::Node& node);
 
-/// Footprint from the place of the node and those of the centres of its trixels, in order around it.
+/// Footprint from the place of the node and those of the centres of its trixels, in order around it; of no
+/// corners when one of them is not on the map.
 Footprint make_footprint(const MapGeometry& geometry, const SamplePlace& node,
                          const std::array<SamplePlace, 6>& centres, int count);
 

@@ -65,7 +65,7 @@ GuardedBlock::GuardedBlock(const NodeRect& rect, int channels, const NodeSource&
   inside.j0 = std::max(0, rect.j0 - 1);
   inside.ni = std::min(n, rect.i0 + rect.ni) + 1 - inside.i0;
   inside.nj = std::min(n, rect.j0 + rect.nj) + 1 - inside.j0;
-  const RowSink sink = [&](int i, int j, int count, const float* values) {
+  const RowSink sink = [&](int i, int j, int count, const float* values, const float*) {
     std::copy_n(values, count * channels_, at(i, j));
   };
   nodes(inside, sink);
@@ -79,7 +79,7 @@ void GuardedBlock::take_beyond_border(const NodeSource& nodes) {
     const auto node = [&](std::size_t p) { return fold({rect_.d, rect_.level, places[p].x, places[p].y}); };
     Run run{node(k++)};
     for (; k < places.size() && run.takes(node(k)); ++k) run.add(node(k));
-    const RowSink sink = [&](int i, int j, int count, const float* values) {
+    const RowSink sink = [&](int i, int j, int count, const float* values, const float*) {
       for (int c = 0; c < count; ++c) {
         const ivec2& place = places[begin + static_cast<std::size_t>(run.index(i + c, j))];
         std::copy_n(values + c * channels_, channels_, at(place.x, place.y));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace converters {
 namespace {
@@ -16,12 +15,12 @@ constexpr double kLeastWeight = 1e-9;
 
 bool weighted(const Window& window, int channels) { return window.stride > channels; }
 
-/// Divides by the weight of what was valid (out of `whole`).
-bool finish(const Window& window, int channels, const Sum& sum, double whole, float* out) {
+/// Divides by the weight of what was valid; gives its share of `whole`.
+double finish(const Window& window, int channels, const Sum& sum, double whole, float* out) {
   const double weight = weighted(window, channels) ? sum[static_cast<std::size_t>(channels)] : whole;
-  if (!(weight > kLeastWeight * whole)) return false;
+  if (!(weight > kLeastWeight * whole)) return 0.0;
   for (int c = 0; c < channels; ++c) out[c] = static_cast<float>(sum[static_cast<std::size_t>(c)] / weight);
-  return true;
+  return weight == whole ? 1.0 : std::min(1.0, weight / whole);
 }
 
 void add(const float* sample, int stride, double weight, Sum& sum) {
@@ -93,14 +92,15 @@ struct Lines {
   double y(int line) const { return first + line * step; }
 };
 
-/// Area of a strip along a row for one column, up to a constant factor; 0 beyond the poles.
-double strip_weight(const MapGeometry& geometry, double y) {
-  return std::cos(latitude_of(geometry, y) * std::numbers::pi / 180.0);
-}
-
-/// Adds the strip along y between two columns.
-void add_strip(const Window& window, double y, double a, double b, double weight, Sum& sum) {
+/// Adds the strip along y between two columns, as much of it as lies on the map or within a sample of it.
+void add_strip(const Window& window, const MapGeometry& geometry, double y, double a, double b, double weight,
+               Sum& sum) {
+  if (geometry.period == 0) {
+    a = std::clamp(a, -1.0, double(geometry.width));
+    b = std::clamp(b, -1.0, double(geometry.width));
+  }
   const int row = static_cast<int>(std::floor(y));
+  if (b <= a || !(has_row(geometry, row) || has_row(geometry, row + 1))) return;
   const double below = y - row;
   integrate(window, row, a, b, weight * (1.0 - below), sum);
   if (below > 0.0) integrate(window, row + 1, a, b, weight * below, sum);
@@ -108,15 +108,15 @@ void add_strip(const Window& window, double y, double a, double b, double weight
 
 }  // namespace
 
-bool nearest(const Window& window, int channels, const SamplePlace& place, float* out) {
+double nearest(const Window& window, int channels, const SamplePlace& place, float* out) {
   const float* sample = window.at(place.x.whole + (place.x.fraction >= 0.5 ? 1 : 0),
                                   place.y.whole + (place.y.fraction >= 0.5 ? 1 : 0));
-  if (weighted(window, channels) && sample[channels] == 0.0F) return false;
+  if (weighted(window, channels) && sample[channels] == 0.0F) return 0.0;
   std::copy_n(sample, channels, out);
-  return true;
+  return 1.0;
 }
 
-bool bilinear(const Window& window, int channels, const SamplePlace& place, float* out) {
+double bilinear(const Window& window, int channels, const SamplePlace& place, float* out) {
   const double fx = place.x.fraction;
   const double fy = place.y.fraction;
   const float* top = window.at(place.x.whole, place.y.whole);
@@ -129,7 +129,7 @@ bool bilinear(const Window& window, int channels, const SamplePlace& place, floa
   return finish(window, channels, sum, 1.0, out);
 }
 
-bool bicubic(const Window& window, int channels, const SamplePlace& place, float* out) {
+double bicubic(const Window& window, int channels, const SamplePlace& place, float* out) {
   const std::array<double, 4> wx = catmull_rom(place.x.fraction);
   const std::array<double, 4> wy = catmull_rom(place.y.fraction);
   const int stride = window.stride;
@@ -153,29 +153,32 @@ bool bicubic(const Window& window, int channels, const SamplePlace& place, float
   }
   for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
     out[c] = std::clamp(static_cast<float>(sum[c]), low[c], high[c]);
-  return true;
+  return 1.0;
 }
 
-bool footprint_mean(const Window& window, int channels, const MapGeometry& geometry,
-                    const Footprint& footprint, const SamplePlace& place, float* out) {
+double footprint_mean(const Window& window, int channels, const MapGeometry& geometry,
+                      const Footprint& footprint, const SamplePlace& place, float* out) {
   Sum sum{};
   double whole = 0;
   const Lines lines(footprint.min_y(), footprint.max_y());
   for (int line = 0; line < lines.count; ++line) {
-    const double y = std::clamp(lines.y(line), -0.5, geometry.height - 0.5);
-    const double weight = strip_weight(geometry, y);
+    // Beyond a pole there is no more of the planet; beyond another end of the map there is.
+    double y = lines.y(line);
+    if (geometry.north_shift != MapGeometry::kNoPole) y = std::max(y, -0.5);
+    if (geometry.south_shift != MapGeometry::kNoPole) y = std::min(y, geometry.height - 0.5);
+    const double weight = row_weight(geometry, y);
     std::array<double, 6> x{};
     const int count = crossings(footprint, y, x);
     for (std::size_t k = 0; k + 1 < static_cast<std::size_t>(count); k += 2) {
       if (x[k + 1] <= x[k]) continue;
-      add_strip(window, y, place.x.whole + x[k], place.x.whole + x[k + 1], weight, sum);
+      add_strip(window, geometry, y, place.x.whole + x[k], place.x.whole + x[k + 1], weight, sum);
       whole += weight * (x[k + 1] - x[k]);
     }
   }
   return whole > 0.0 ? finish(window, channels, sum, whole, out) : bilinear(window, channels, place, out);
 }
 
-bool cap_mean(const SourceMap& map, double rim, bool north, float* out) {
+double cap_mean(const SourceMap& map, double rim, bool north, float* out) {
   const MapGeometry& geometry = map.geometry();
   const Lines lines(north ? -0.5 : rim, north ? rim : geometry.height - 0.5);
   Sum sum{};
@@ -187,15 +190,15 @@ bool cap_mean(const SourceMap& map, double rim, bool north, float* out) {
     const double y = lines.y(line);
     window.y0 = static_cast<int>(std::floor(y));
     map.read(window);
-    const double weight = strip_weight(geometry, y);
-    add_strip(window, y, 0.0, geometry.period, weight, sum);
+    const double weight = row_weight(geometry, y);
+    add_strip(window, geometry, y, 0.0, geometry.period, weight, sum);
     whole += weight * geometry.period;
   }
   return whole > 0.0 ? finish(window, map.channels(), sum, whole, out)
                      : row_mean(map, north ? 0 : geometry.height - 1, out);
 }
 
-bool row_mean(const SourceMap& map, int y, float* out) {
+double row_mean(const SourceMap& map, int y, float* out) {
   Window window;
   window.y0 = y;
   window.width = map.geometry().period;

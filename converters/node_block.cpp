@@ -9,7 +9,12 @@ namespace converters {
 using globe::planet::node_direction;
 
 NodeBlock::NodeBlock(int d, int level, int i0, int j0, int side)
-    : i0_(i0), j0_(j0), side_(side), directions_(static_cast<std::size_t>((side + 1) * (side + 1))) {
+    : d_(d),
+      level_(level),
+      i0_(i0),
+      j0_(j0),
+      side_(side),
+      directions_(static_cast<std::size_t>((side + 1) * (side + 1))) {
   assert((side & (side - 1)) == 0 && i0 % side == 0 && j0 % side == 0);
   const auto slot = [&](int i, int j) -> globe::planet::dvec3& {
     return directions_[static_cast<std::size_t>(j * (side + 1) + i)];

@@ -14,12 +14,18 @@ class NodeBlock {
   /// it.
   NodeBlock(int d, int level, int i0, int j0, int side);
 
+  int diamond() const { return d_; }
+  int level() const { return level_; }
+  int i0() const { return i0_; }
+  int j0() const { return j0_; }
+  int side() const { return side_; }
+
   const globe::planet::dvec3& at(int i, int j) const {
     return directions_[static_cast<std::size_t>((j - j0_) * (side_ + 1) + (i - i0_))];
   }
 
  private:
-  int i0_, j0_, side_;
+  int d_, level_, i0_, j0_, side_;
   std::vector<globe::planet::dvec3> directions_;
 };
 

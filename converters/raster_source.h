@@ -12,6 +12,9 @@ namespace converters {
 enum class SampleType { kUint8, kUint16, kInt16, kFloat };
 std::size_t size_of(SampleType type);
 
+/// What the edges of a map's extent are: the outer edges of samples, or the outermost samples themselves.
+enum class Registration { kArea, kPoint };
+
 /// Longitudes and latitudes that a map spans, degrees.
 struct Extent {
   double west = -180, south = -90, east = 180, north = 90;
@@ -28,6 +31,8 @@ struct RasterInfo {
   std::optional<Extent> extent;  ///< when the file itself says so
   std::optional<double> nodata;  ///< likewise
   bool linear_light = false;     ///< of a picture: samples are linear, not sRGB
+  double white = 0;              ///< of a picture: the brightest number; 0: of the type
+  bool has_mask = false;         ///< the last channel is 0 where the others are void
   std::string description;       ///< what the file says of itself
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numbers>
 
 #include "converters/srgb.h"
 #include "globe/base/error.h"
@@ -23,15 +22,31 @@ float decode(const ValueRule& rule, double raw, double full) {
   return static_cast<float>(full == 0.0 ? raw : linear_from_srgb(raw / full));
 }
 
+/// The brightest number of a picture.
+double white_of(const RasterInfo& info) {
+  if (info.white > 0.0) return info.white;
+  switch (info.type) {
+    case SampleType::kUint8:
+      return 255.0;
+    case SampleType::kUint16:
+      return 65535.0;
+    case SampleType::kInt16:
+      return 32767.0;
+    case SampleType::kFloat:
+      break;
+  }
+  return 1.0;
+}
+
 /// Values of all raw numbers of an integer type, indexed by their bits.
-std::vector<float> decode_table(const ValueRule& rule, SampleType type) {
-  if (type == SampleType::kFloat) return {};
-  std::vector<float> table(type == SampleType::kUint8 ? 256 : 65536);
+std::vector<float> decode_table(const ValueRule& rule, const RasterInfo& info) {
+  if (info.type == SampleType::kFloat) return {};
+  std::vector<float> table(info.type == SampleType::kUint8 ? 256 : 65536);
+  const double white = white_of(info);
   for (std::size_t bits = 0; bits < table.size(); ++bits) {
-    const auto raw = type == SampleType::kInt16 ? static_cast<double>(static_cast<std::int16_t>(bits))
-                                                : static_cast<double>(bits);
-    const double full = type == SampleType::kUint8 ? 255.0 : type == SampleType::kUint16 ? 65535.0 : 32767.0;
-    table[bits] = type == SampleType::kInt16 && raw == -32768.0 ? kVoid : decode(rule, raw, full);
+    const auto raw = info.type == SampleType::kInt16 ? static_cast<double>(static_cast<std::int16_t>(bits))
+                                                     : static_cast<double>(bits);
+    table[bits] = info.type == SampleType::kInt16 && raw == -32768.0 ? kVoid : decode(rule, raw, white);
   }
   return table;
 }
@@ -40,35 +55,39 @@ std::size_t area(int width, int height) {
   return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-/// Averages blocks of factor x factor samples of whole rows of values; NaN counts for nothing.
-void average_blocks(const float* rows, int width, int channels, int factor, float* out) {
+/// Averages blocks of factor x factor samples of whole rows of values, fewer at the end of a row; NaN counts
+/// for nothing.
+void average_blocks(const float* rows, int width, int row_count, int channels, int factor, float* out) {
   const auto n = static_cast<std::size_t>(channels);
-  const auto f = static_cast<std::size_t>(factor);
-  const auto w = static_cast<std::size_t>(width);
-  for (std::size_t x = 0; x < w / f; ++x) {
+  for (int x = 0; x < width; x += factor) {
+    const int end = std::min(x + factor, width);
     for (std::size_t c = 0; c < n; ++c) {
       double sum = 0;
       int count = 0;
-      for (std::size_t b = 0; b < f; ++b) {
-        for (std::size_t a = 0; a < f; ++a) {
-          const float value = rows[(b * w + x * f + a) * n + c];
+      for (int b = 0; b < row_count; ++b) {
+        for (int a = x; a < end; ++a) {
+          const float value = rows[(area(b, width) + static_cast<std::size_t>(a)) * n + c];
           if (std::isnan(value)) continue;
           sum += static_cast<double>(value);
           ++count;
         }
       }
-      out[x * n + c] = count == 0 ? kVoid : static_cast<float>(sum / count);
+      *out++ = count == 0 ? kVoid : static_cast<float>(sum / count);
     }
   }
 }
 
-/// Raw samples of one pixel run to values; pictures of one or two channels are grey.
-template <typename Decode>
-void decode_run(std::size_t count, int raw_channels, int channels, const Decode& value_at, float* out) {
+/// Raw samples of one pixel run to values; pictures of one or two channels are grey. `raw_channels` counts
+/// the mask, when there is one; is_hidden(its index) tells what it says.
+template <typename Decode, typename Hidden>
+void decode_run(std::size_t count, int raw_channels, bool masked, int channels, const Decode& value_at,
+                const Hidden& is_hidden, float* out) {
   const auto raw = static_cast<std::size_t>(raw_channels);
+  const bool grey = raw_channels - (masked ? 1 : 0) < 3;
   for (std::size_t k = 0; k < count; ++k) {
-    for (int c = 0; c < channels; ++c)
-      *out++ = value_at(k * raw + (raw < 3 ? 0U : static_cast<std::size_t>(c)));
+    const bool hidden = masked && is_hidden(k * raw + raw - 1);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
+      *out++ = hidden ? kVoid : value_at(k * raw + (grey ? 0U : c));
   }
 }
 
@@ -79,13 +98,16 @@ SourceMap::SourceMap(RasterSource& raster, const MapGeometry& geometry, const Va
     : geometry_(factor > 1 ? reduced(geometry, factor) : geometry),
       channels_(rule.channels()),
       stored_channels_(raster.info().channels),
+      masked_(raster.info().has_mask),
+      ends_(!geometry.is_whole_planet()),
       stored_(raster.info().type) {
   const RasterInfo& info = raster.info();
   const std::size_t raw_row = static_cast<std::size_t>(info.width) * static_cast<std::size_t>(info.channels);
   const bool as_values = info.type == SampleType::kFloat || factor > 1;
-  decode_ = decode_table(rule, info.type);
+  decode_ = decode_table(rule, info);
   std::vector<std::byte> raw(raw_row * size_of(info.type) * static_cast<std::size_t>(factor));
   std::vector<float> rows(as_values ? area(info.width, factor) * static_cast<std::size_t>(channels_) : 0);
+  const double white = info.linear_light ? 0.0 : white_of(info);
   const auto value_at = [&](std::size_t index) {
     switch (info.type) {
       case SampleType::kUint8:
@@ -96,12 +118,24 @@ SourceMap::SourceMap(RasterSource& raster, const MapGeometry& geometry, const Va
       case SampleType::kFloat:
         break;
     }
-    return decode(rule, static_cast<double>(reinterpret_cast<const float*>(raw.data())[index]),
-                  info.linear_light ? 0.0 : 1.0);
+    return decode(rule, static_cast<double>(reinterpret_cast<const float*>(raw.data())[index]), white);
+  };
+  const auto is_hidden = [&](std::size_t index) {
+    switch (info.type) {
+      case SampleType::kUint8:
+        return raw[index] == std::byte{0};
+      case SampleType::kUint16:
+      case SampleType::kInt16:
+        return reinterpret_cast<const std::uint16_t*>(raw.data())[index] == 0;
+      case SampleType::kFloat:
+        break;
+    }
+    return reinterpret_cast<const float*>(raw.data())[index] == 0.0F;
   };
   if (as_values) {
     stored_ = SampleType::kFloat;
     stored_channels_ = channels_;
+    masked_ = false;
   }
   const std::size_t row_bytes = static_cast<std::size_t>(geometry_.width) *
                                 static_cast<std::size_t>(stored_channels_) * size_of(stored_);
@@ -109,9 +143,11 @@ SourceMap::SourceMap(RasterSource& raster, const MapGeometry& geometry, const Va
   for (int y = 0; y < geometry_.height; ++y) {
     std::byte* to = samples_.data() + static_cast<std::size_t>(y) * row_bytes;
     if (as_values) {
-      raster.read_rows(factor, raw.data());
-      decode_run(area(info.width, factor), info.channels, channels_, value_at, rows.data());
-      average_blocks(rows.data(), info.width, channels_, factor, reinterpret_cast<float*>(to));
+      const int row_count = std::min(factor, info.height - y * factor);
+      raster.read_rows(row_count, raw.data());
+      decode_run(area(info.width, row_count), info.channels, info.has_mask, channels_, value_at, is_hidden,
+                 rows.data());
+      average_blocks(rows.data(), info.width, row_count, channels_, factor, reinterpret_cast<float*>(to));
     } else {
       raster.read_rows(1, to);
     }
@@ -130,46 +166,56 @@ void SourceMap::read_run(int x, int y, int count, float* out) const {
                              static_cast<std::size_t>(x)) *
                             static_cast<std::size_t>(stored_channels_);
   const auto n = static_cast<std::size_t>(count);
+  const auto decode_from = [&](const auto* from) {
+    decode_run(
+        n, stored_channels_, masked_, channels_, [&](std::size_t k) { return decode_[from[k]]; },
+        [&](std::size_t k) { return from[k] == 0; }, out);
+  };
   switch (stored_) {
-    case SampleType::kUint8: {
-      const auto* from = samples_.as<std::uint8_t>() + first;
-      decode_run(
-          n, stored_channels_, channels_, [&](std::size_t k) { return decode_[from[k]]; }, out);
+    case SampleType::kUint8:
+      decode_from(samples_.as<std::uint8_t>() + first);
       break;
-    }
     case SampleType::kUint16:
-    case SampleType::kInt16: {
-      const auto* from = samples_.as<std::uint16_t>() + first;
-      decode_run(
-          n, stored_channels_, channels_, [&](std::size_t k) { return decode_[from[k]]; }, out);
+    case SampleType::kInt16:
+      decode_from(samples_.as<std::uint16_t>() + first);
       break;
-    }
     case SampleType::kFloat:
       std::copy_n(samples_.as<float>() + first, n * static_cast<std::size_t>(channels_), out);
       break;
   }
 }
 
+SourceMap::Run SourceMap::run_at(int x, int y, int most) const {
+  if (!has_row(geometry_, y)) return {{0, 0}, most, false};
+  if (geometry_.period > 0) {
+    const SampleIndex from = fold(geometry_, x, y);
+    return {from, std::min(most, geometry_.period - from.x), true};
+  }
+  if (x < 0) return {{0, 0}, std::min(most, -x), false};
+  if (x >= geometry_.width) return {{0, 0}, most, false};
+  return {{x, y}, std::min(most, geometry_.width - x), true};
+}
+
 void SourceMap::read(Window& window) const {
-  window.stride = channels_ + (fill_ ? 1 : 0);
+  const bool weighted = fill_ || ends_;
+  window.stride = channels_ + (weighted ? 1 : 0);
   window.values.resize(area(window.width, window.height) * static_cast<std::size_t>(window.stride));
-  std::vector<float> run;
+  std::vector<float> values;
   for (int y = window.y0; y < window.y0 + window.height; ++y) {
     for (int done = 0; done < window.width;) {
-      const SampleIndex from = fold(geometry_, window.x0 + done, y);
-      const int count = std::min(window.width - done, geometry_.period - from.x);
+      const Run run = run_at(window.x0 + done, y, window.width - done);
       float* to = const_cast<float*>(window.at(window.x0 + done, y));
-      done += count;
-      if (!fill_) {
-        read_run(from.x, from.y, count, to);
+      done += run.count;
+      if (!weighted) {
+        read_run(run.from.x, run.from.y, run.count, to);
         continue;
       }
-      run.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(channels_));
-      read_run(from.x, from.y, count, run.data());
-      for (std::size_t k = 0; k < run.size(); k += static_cast<std::size_t>(channels_)) {
-        const bool is_void =
-            std::any_of(run.data() + k, run.data() + k + channels_, [](float v) { return std::isnan(v); });
-        for (int c = 0; c < channels_; ++c) *to++ = is_void ? 0.0F : run[k + static_cast<std::size_t>(c)];
+      values.assign(static_cast<std::size_t>(run.count) * static_cast<std::size_t>(channels_), kVoid);
+      if (run.on_map) read_run(run.from.x, run.from.y, run.count, values.data());
+      for (std::size_t k = 0; k < values.size(); k += static_cast<std::size_t>(channels_)) {
+        const bool is_void = std::any_of(values.data() + k, values.data() + k + channels_,
+                                         [](float v) { return std::isnan(v); });
+        for (int c = 0; c < channels_; ++c) *to++ = is_void ? 0.0F : values[k + static_cast<std::size_t>(c)];
         *to++ = is_void ? 0.0F : 1.0F;
       }
     }
@@ -178,19 +224,19 @@ void SourceMap::read(Window& window) const {
 
 void SourceMap::count_voids() {
   // Integers of a type whose every number is valid have no voids: nothing to look for.
-  if (stored_ != SampleType::kFloat &&
+  if (stored_ != SampleType::kFloat && !masked_ &&
       std::none_of(decode_.begin(), decode_.end(), [](float v) { return std::isnan(v); }))
     return;
   VoidFill fill(geometry_, channels_);
-  std::vector<float> row(static_cast<std::size_t>(geometry_.period) * static_cast<std::size_t>(channels_));
+  std::vector<float> row(static_cast<std::size_t>(geometry_.columns()) * static_cast<std::size_t>(channels_));
   double void_area = 0;
   double whole_area = 0;
   bool any_valid = false;
   for (int y = 0; y < geometry_.height; ++y) {
-    read_run(0, y, geometry_.period, row.data());
-    const double weight = std::cos(latitude_of(geometry_, y) * std::numbers::pi / 180.0);
+    read_run(0, y, geometry_.columns(), row.data());
+    const double weight = row_weight(geometry_, y);
     int voids = 0;
-    for (int x = 0; x < geometry_.period; ++x) {
+    for (int x = 0; x < geometry_.columns(); ++x) {
       const float* value = row.data() + static_cast<std::size_t>(x) * static_cast<std::size_t>(channels_);
       if (std::any_of(value, value + channels_, [](float v) { return std::isnan(v); })) {
         ++voids;
@@ -199,8 +245,8 @@ void SourceMap::count_voids() {
       }
     }
     void_area += weight * voids;
-    whole_area += weight * geometry_.period;
-    any_valid = any_valid || voids < geometry_.period;
+    whole_area += weight * geometry_.columns();
+    any_valid = any_valid || voids < geometry_.columns();
     if (y % 64 == 63) samples_.drop_pages();
   }
   void_share_ = any_valid ? std::min(void_area / whole_area, std::nextafter(1.0, 0.0)) : 1.0;

@@ -23,9 +23,9 @@ struct ValueRule {
   int channels() const { return kind == MapKind::kHeights ? 1 : 3; }
 };
 
-/// A rectangle of map values as floats. Columns are counted on without wrapping, rows beyond a pole are those
-/// of the opposite meridian. Where the map has voids a weight follows the channels, 1 or 0, and void values
-/// are 0.
+/// A rectangle of map values as floats. Columns of a map that goes all around are counted on without
+/// wrapping, rows beyond a pole are those of the opposite meridian. Where the map has voids or ends, a weight
+/// follows the channels, 1 or 0, and void values are 0.
 struct Window {
   int x0 = 0, y0 = 0, width = 0, height = 0;
   int stride = 1;  ///< floats a sample
@@ -38,21 +38,23 @@ struct Window {
   }
 };
 
-/// A map of the whole planet, held in memory or scratch as it was stored and turned into values when asked.
+/// A map of the planet or of a part of it, held in memory or scratch as it was stored and turned into values
+/// when asked.
 ///
-/// Voids are samples that are not finite, beyond +-1e30, equal to the nodata value, or -32768 in 16 bits.
+/// Voids are samples that are not finite, beyond +-1e30, equal to the nodata value, masked by the raster's
+/// own mask, or -32768 in 16 bits.
 class SourceMap {
  public:
-  /// Reads the raster to its end. `factor` x factor samples are averaged into one on the way (the width and
-  /// height must be multiples of it). `progress` hears of the share read. Throws globe::Error when the raster
-  /// cannot be decoded or holds nothing but voids.
+  /// Reads the raster to its end. `factor` x factor samples are averaged into one on the way (period and
+  /// height of a map of the whole planet must be multiples of it). `progress` hears of the share read. Throws
+  /// globe::Error when the raster cannot be decoded or holds nothing but voids.
   SourceMap(RasterSource& raster, const MapGeometry& geometry, const ValueRule& rule, int factor,
             MemoryBudget& budget, const std::function<void(double)>& progress);
 
   const MapGeometry& geometry() const { return geometry_; }
   int channels() const { return channels_; }
   bool has_voids() const { return fill_.has_value(); }
-  /// Share of the planet's surface that is void, 0 to 1.
+  /// Share of the map's area that is void, 0 to 1.
   double void_share() const { return void_share_; }
 
   /// Fills window.values for the window's rectangle.
@@ -64,12 +66,21 @@ class SourceMap {
   void drop_pages() const { samples_.drop_pages(); }
 
  private:
+  /// Samples beside one another of a window's row that lie so in the buffer too, or off the map.
+  struct Run {
+    SampleIndex from;
+    int count;
+    bool on_map;
+  };
+  Run run_at(int x, int y, int most) const;
   void read_run(int x, int y, int count, float* out) const;
   void count_voids();
 
   MapGeometry geometry_;
   int channels_;
   int stored_channels_;  ///< a sample in the buffer
+  bool masked_;          ///< the last channel in the buffer is the raster's mask
+  bool ends_;            ///< there are places off the map
   SampleType stored_;    ///< kUint8, kUint16 and kInt16 go through decode_, kFloat holds values (void: NaN)
   std::vector<float> decode_;
   Buffer samples_;

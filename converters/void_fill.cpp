@@ -25,8 +25,11 @@ const float* VoidFill::Grid::at(int x, int y, int stride) const {
 }
 
 VoidFill::VoidFill(const MapGeometry& geometry, int channels)
-    : channels_(channels), stride_(channels + 1), factor_(blocks(geometry.period, kMaxColumns)) {
-  grid_ = {blocks(geometry.period, factor_), blocks(geometry.height, factor_), {}};
+    : channels_(channels),
+      stride_(channels + 1),
+      factor_(blocks(std::max(geometry.columns(), geometry.height), kMaxColumns)),
+      wraps_(geometry.period > 0) {
+  grid_ = {blocks(geometry.columns(), factor_), blocks(geometry.height, factor_), {}};
   grid_.values.resize(static_cast<std::size_t>(grid_.width) * static_cast<std::size_t>(grid_.height) *
                       static_cast<std::size_t>(stride_));
 }
@@ -79,7 +82,7 @@ void VoidFill::finish() {
   grid_ = std::move(pyramid.front());
 }
 
-/// Bilinear between block centres; columns wrap, rows are held at the poles.
+/// Bilinear between block centres; columns wrap or are held at the ends, rows are held at theirs.
 void VoidFill::interpolate(const Grid& grid, double x, double y, float* out) const {
   const double left = std::floor(x);
   const double top = std::floor(y);
@@ -89,7 +92,9 @@ void VoidFill::interpolate(const Grid& grid, double x, double y, float* out) con
   for (int b = 0; b < 2; ++b) {
     const int row = std::clamp(static_cast<int>(top) + b, 0, grid.height - 1);
     for (int a = 0; a < 2; ++a) {
-      const int column = (static_cast<int>(left) + a + 2 * grid.width) % grid.width;
+      const int wanted = static_cast<int>(left) + a;
+      const int column =
+          wraps_ ? (wanted + 2 * grid.width) % grid.width : std::clamp(wanted, 0, grid.width - 1);
       const float* from = grid.at(column, row, stride_);
       for (std::size_t c = 0; c < static_cast<std::size_t>(channels_); ++c)
         sum[c] +=

@@ -39,6 +39,7 @@ class VoidFill {
   int channels_;
   int stride_;
   int factor_;
+  bool wraps_;  ///< columns go all around
   Grid grid_;
 };
 

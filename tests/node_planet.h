@@ -41,10 +41,11 @@ inline void write_node_planet(const std::filesystem::path& folder, int level,
   const converters::NodeSource nodes = [&](const converters::NodeRect& rect,
                                            const converters::RowSink& sink) {
     std::vector<float> row(static_cast<std::size_t>(rect.ni));
+    const std::vector<float> valid(row.size(), 1.0F);
     for (int j = rect.j0; j < rect.j0 + rect.nj; ++j) {
       for (int i = 0; i < rect.ni; ++i)
         row[static_cast<std::size_t>(i)] = static_cast<float>(height({rect.d, level, rect.i0 + i, j}));
-      sink(rect.i0, j, rect.ni, row.data());
+      sink(rect.i0, j, rect.ni, row.data(), valid.data());
     }
   };
   converters::Range all{1e9, -1e9};

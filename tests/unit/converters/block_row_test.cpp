@@ -43,7 +43,7 @@ struct Done {
     std::reverse(jobs.begin(), jobs.end());  // their order is nobody's business
     for (const Job& job : jobs) {
       const NodeSource nodes = [&](const NodeRect& rect, const RowSink& sink) {
-        sample_nodes(map, filter, rect, sink, [](double) {});
+        sample_nodes(test::stack_of({&map}, filter), rect, Gaps::kFill, sink, [](double) {});
       };
       const Range part = run_job(job, nodes, kWgs84, files, [](double) {});
       range = {std::min(range.min, part.min), std::max(range.max, part.max)};

@@ -61,6 +61,48 @@ TEST(MapGeometry, RefusesMapsThatAreNotAWholePlanet) {
   EXPECT_THROW(test::geometry_of(720, 360, Registration::kArea, {0, -90, 180, 90}), globe::Error);
 }
 
+MapGeometry part_of(int width, int height, const Extent& extent,
+                    Registration registration = Registration::kArea) {
+  return equirectangular_geometry("map", width, height, extent, registration, Latitude::kGeodetic,
+                                  globe::geo::kMoon);
+}
+
+TEST(MapGeometry, TakesExtentsThatFilesRoundForWhatTheyMean) {
+  const MapGeometry map = part_of(1081, 540, {20.00000005, -90, 380.3333, 89.99998205});
+  EXPECT_EQ(map.period, 1080);
+  EXPECT_TRUE(map.is_whole_planet());
+  EXPECT_DOUBLE_EQ(map.step_deg, 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(map.row_step_deg, 1.0 / 3.0);
+  EXPECT_NEAR(map.west_deg, 20.0 + 1.0 / 6.0, 1e-12);
+  EXPECT_DOUBLE_EQ(map.north_deg, 90.0 - 1.0 / 6.0);
+  const MapGeometry geoid = part_of(1440, 721, {-0.125, -90.125, 359.875, 90.125});
+  EXPECT_EQ(geoid.north_shift, 0);
+  EXPECT_EQ(geoid.south_shift, 0);
+  EXPECT_DOUBLE_EQ(geoid.north_deg, 90.0);
+  EXPECT_DOUBLE_EQ(geoid.west_deg, 0.0);
+}
+
+TEST(MapGeometry, EndsWherePartsOfThePlanetEnd) {
+  const MapGeometry band = part_of(720, 240, {-180, -60, 180, 60});
+  EXPECT_EQ(band.period, 720);
+  EXPECT_FALSE(band.is_whole_planet());
+  EXPECT_FALSE(has_row(band, -1));
+  const MapGeometry cap = part_of(720, 60, {0, 60, 360, 90});
+  EXPECT_TRUE(has_row(cap, -1));
+  EXPECT_FALSE(has_row(cap, 60));
+  const MapGeometry pacific = part_of(200, 100, {170, -10, 190, 10});
+  EXPECT_EQ(pacific.period, 0);
+  for (const double lon : {-175.0, 185.0, 545.0}) {
+    const SamplePlace place = place_of(pacific, globe::geo::normal_from_degrees(5.0, lon));
+    EXPECT_NEAR(place.x.whole + place.x.fraction, 149.5, 1e-9) << lon;
+    EXPECT_TRUE(is_on(pacific, place));
+  }
+  EXPECT_FALSE(is_on(pacific, place_of(pacific, globe::geo::normal_from_degrees(5.0, 169.9))));
+  EXPECT_FALSE(is_on(pacific, place_of(pacific, globe::geo::normal_from_degrees(10.1, 175.0))));
+  EXPECT_THROW(part_of(10, 10, {0, 80, 10, 95}), globe::Error);
+  EXPECT_THROW(part_of(10, 10, {0, 200, 300, 500}), globe::Error);
+}
+
 TEST(MapGeometry, FoldsRowsBeyondAPoleToTheOppositeMeridian) {
   const auto folded = [](const MapGeometry& map, int x, int y) {
     const SampleIndex index = fold(map, x, y);

@@ -271,18 +271,14 @@ TEST(SampleNodes, GivesAnyRectangleTheBitsOfTheWhole) {
     const NodeGrid<float> whole = test::sample(map, filter, kLevel, budget);
     for (const NodeRect& rect : rects) {
       std::vector<float> part(static_cast<std::size_t>(rect.ni * rect.nj), kNan);
-      sample_nodes(
-          map, filter, rect,
-          [&](int i, int j, int count, const float* values) {
-            std::copy_n(values, count,
-                        part.begin() + static_cast<std::ptrdiff_t>((j - rect.j0) * rect.ni + i - rect.i0));
-          },
-          [](double) {});
+      std::vector<float> weights(part.size(), kNan);
+      sample_rect(test::stack_of({&map}, filter), rect, Gaps::kFill, part.data(), weights.data());
       for (int j = 0; j < rect.nj; ++j) {
         for (int i = 0; i < rect.ni; ++i) {
           ASSERT_EQ(part[static_cast<std::size_t>(j * rect.ni + i)],
                     *whole.at(rect.d, rect.i0 + i, rect.j0 + j))
               << rect.d << ": " << rect.i0 + i << ", " << rect.j0 + j;
+          ASSERT_EQ(weights[static_cast<std::size_t>(j * rect.ni + i)], 1.0F);
         }
       }
     }

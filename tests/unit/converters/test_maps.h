@@ -69,23 +69,38 @@ inline SourceMap height_map(const MapGeometry& geometry,
                             const std::function<double(double lat, double lon)>& f, MemoryBudget& budget,
                             int factor = 1) {
   FunctionRaster raster(geometry.width, geometry.height, 1, SampleType::kFloat, [&](int x, int y, int) {
-    return f(geometry.north_deg - y * geometry.step_deg, geometry.west_deg + x * geometry.step_deg);
+    return f(geometry.north_deg - y * geometry.row_step_deg, geometry.west_deg + x * geometry.step_deg);
   });
   return SourceMap(raster, geometry, {}, factor, budget, [](double) {});
 }
 
-/// Samples a map of heights at every node of a level.
-inline NodeGrid<float> sample(const SourceMap& map, Filter filter, int level, MemoryBudget& budget) {
-  NodeGrid<float> grid(level, map.channels(), budget);
+/// Samples of a stack at every node of a level.
+inline NodeGrid<float> sample(const MapStack& maps, int level, MemoryBudget& budget,
+                              Gaps gaps = Gaps::kFill) {
+  const int channels = maps.channels();
+  NodeGrid<float> grid(level, channels, budget);
   for (int d = 0; d < globe::planet::kDiamonds; ++d) {
     sample_nodes(
-        map, filter, whole_diamond(d, level),
-        [&](int i, int j, int count, const float* values) {
-          std::copy_n(values, count * map.channels(), grid.at(d, i, j));
+        maps, whole_diamond(d, level), gaps,
+        [&](int i, int j, int count, const float* values, const float*) {
+          std::copy_n(values, count * channels, grid.at(d, i, j));
         },
         [](double) {});
   }
   return grid;
+}
+
+/// A stack of maps that outlive it.
+inline MapStack stack_of(std::initializer_list<const SourceMap*> maps, Filter filter) {
+  MapStack stack;
+  for (const SourceMap* map : maps)
+    stack.add(std::shared_ptr<const SourceMap>(map, [](const SourceMap*) {}), filter);
+  return stack;
+}
+
+/// Samples a map of heights at every node of a level.
+inline NodeGrid<float> sample(const SourceMap& map, Filter filter, int level, MemoryBudget& budget) {
+  return sample(stack_of({&map}, filter), level, budget);
 }
 
 /// Runs body(node, value) over all nodes.
