@@ -1,8 +1,10 @@
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <string>
 
 #include "converters/map_writer.h"
@@ -16,6 +18,25 @@ constexpr int kRows = 32;     ///< of a block: a multiple of those that EXR comp
 constexpr int kPngLevel = 4;  ///< zlib's
 constexpr double kFull = 65535.0;
 
+/// A file that remembers when the disk did not take all: OpenImageIO's PNG writer does not look.
+class CheckedFile : public OIIO::Filesystem::IOFile {
+ public:
+  explicit CheckedFile(const std::string& path) : IOFile(path, Write), opened_(m_file != nullptr) {}
+
+  std::size_t write(const void* bytes, std::size_t size) override {
+    const std::size_t written = IOFile::write(bytes, size);
+    short_ = short_ || written != size;
+    return written;
+  }
+
+  /// Hands everything to the system; false when anything was lost.
+  bool finish() { return opened_ && !short_ && std::fflush(m_file) == 0 && std::ferror(m_file) == 0; }
+
+ private:
+  bool opened_;
+  bool short_ = false;
+};
+
 class PictureWriter : public MapWriter {
  public:
   PictureWriter(const std::filesystem::path& path, const MapDescription& map)
@@ -23,6 +44,7 @@ class PictureWriter : public MapWriter {
         path_(path),
         map_(map),
         is_exr_(path.extension() == ".exr"),
+        file_(path.string()),
         output_(OIIO::ImageOutput::create(path.string())) {
     if (!output_) fail(OIIO::geterror());
     const bool heights = map.content == MapContent::kHeights;
@@ -40,6 +62,7 @@ class PictureWriter : public MapWriter {
     spec.attribute("DateTime", "1970:01:01 00:00:00");  // else today's
     spec.attribute("Software", "globe");
     spec.attribute("ImageDescription", description());
+    output_->set_ioproxy(&file_);
     if (!output_->open(path.string(), spec)) fail(output_->geterror());
   }
 
@@ -65,6 +88,7 @@ class PictureWriter : public MapWriter {
 
   void finish() override {
     if (!output_->close()) fail(output_->geterror());
+    if (!file_.finish()) fail("the disk did not take it all");
   }
 
  private:
@@ -100,6 +124,7 @@ class PictureWriter : public MapWriter {
   std::filesystem::path path_;
   MapDescription map_;
   bool is_exr_;
+  CheckedFile file_;  ///< outlives what writes to it
   std::unique_ptr<OIIO::ImageOutput> output_;
   std::vector<std::uint8_t> bytes_;
   std::vector<std::uint16_t> words_;
