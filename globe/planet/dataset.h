@@ -40,6 +40,48 @@ struct LayerInfo {
   friend bool operator==(const LayerInfo&, const LayerInfo&) = default;
 };
 
+/// A rectangle of nodes of one diamond, both ends included; empty when i1 < i0 or j1 < j0.
+struct InsetBlock {
+  int d = 0;
+  int i0 = 0, i1 = -1;
+  int j0 = 0, j1 = -1;
+
+  bool empty() const { return i1 < i0 || j1 < j0; }
+  bool holds(int i, int j) const { return i >= i0 && i <= i1 && j >= j0 && j <= j1; }
+  /// The nodes of a level `steps` coarser that lie in it.
+  InsetBlock coarser(int steps) const {
+    const auto up = [&](int x) { return (x + (1 << steps) - 1) >> steps; };
+    return {d, up(i0), i1 >> steps, up(j0), j1 >> steps};
+  }
+
+  friend bool operator==(const InsetBlock&, const InsetBlock&) = default;
+};
+
+/// Finer local data, laid over a layer of the planet: at most one block a diamond. Every level down to 0 of
+/// its nodes is there, coarser ones by sub-sampling.
+///
+/// With w its weight, what lies below it counts 1 - w and itself w; w is 0 outside the blocks, and nodes that
+/// diamonds share have the same samples in each. Samples that Dataset::read_inset gives:
+/// - "weight": 0 to 1.
+/// - "height": metres above the planet's vertical datum; means something where the weight is above 0 and up
+///   to kInsetMargin nodes beyond.
+/// - "relief": the same heights filtered, at levels coarser than the inset's, where the weight is above 0.
+/// - "color": three channels of sRGB, coarser levels filtered.
+struct InsetInfo {
+  std::string name;
+  std::string layer;  ///< what it is laid over: "height" (then it has height, weight, relief), or "color"
+                      ///< (color, weight)
+  int level = 0;      ///< not coarser than the layer's, nor than kCoarsestInset
+  double min = 0;     ///< of the samples with a weight, in the unit that read_inset gives
+  double max = 0;
+  std::vector<InsetBlock> blocks;  ///< at `level`
+
+  friend bool operator==(const InsetInfo&, const InsetInfo&) = default;
+};
+
+inline constexpr int kCoarsestInset = 7;
+inline constexpr int kInsetMargin = 8;
+
 struct PlanetInfo {
   std::string name;
   std::string body = "other";  ///< earth, moon, mars, other
@@ -50,6 +92,7 @@ struct PlanetInfo {
   std::vector<LayerInfo> layers;
   std::vector<std::string>
       credits;  ///< provenance: sources, filter, program version; no dates, no host names
+  std::vector<InsetInfo> insets = {};  ///< later ones lie over earlier ones
 
   friend bool operator==(const PlanetInfo&, const PlanetInfo&) = default;
 };
@@ -77,6 +120,11 @@ class Dataset {
   /// The same for a uint8 layer, bytes as stored.
   void read(std::string_view layer, int d, int level, int i0, int j0, int ni, int nj,
             std::uint8_t* out) const;
+
+  /// Nodes of inset number `inset` of info(), at its level or a coarser one; 0 outside its blocks. `what` and
+  /// the samples: see InsetInfo; order as for read().
+  void read_inset(std::size_t inset, std::string_view what, int d, int level, int i0, int j0, int ni, int nj,
+                  float* out) const;
 
  private:
   struct State;

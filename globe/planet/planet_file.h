@@ -10,7 +10,7 @@
 
 namespace globe::planet {
 
-inline constexpr int kFormatVersion = 1;
+inline constexpr int kFormatVersion = 2;  ///< planets without insets are written as version 1
 inline constexpr const char* kPlanetFileName = "planet.json";
 
 /// A file of a planet folder, as planet.json lists it.
@@ -31,10 +31,32 @@ struct StoredLayer {
   friend bool operator==(const StoredLayer&, const StoredLayer&) = default;
 };
 
-/// planet.json: what the folder holds. `info.layers` repeats `layers[].info`.
+/// One file of an inset's block.
+struct InsetFile {
+  std::string what;  ///< "height", "weight", "relief", "color"
+  int channels = 1;
+  std::string storage;     ///< as in LayerInfo
+  int levels_coarser = 0;  ///< its finest level is so much coarser than the inset's
+};
+/// The files of each block of an inset over a layer, in this order; none for an unknown layer.
+std::vector<InsetFile> inset_files(const std::string& layer);
+
+struct StoredInset {
+  InsetInfo info;
+  std::vector<std::vector<StoredFile>> files;  ///< of each block, those of inset_files
+
+  friend bool operator==(const StoredInset&, const StoredInset&) = default;
+};
+
+/// Whether an inset may be called so: 1 to 64 letters, digits, '.', '_' or '-', no '.' at the front, and not
+/// a word that answers use for other sources ("data", "synthesised").
+bool is_inset_name(const std::string& name);
+
+/// planet.json: what the folder holds. `info.layers` repeats `layers[].info`, `info.insets` `insets[].info`.
 struct PlanetFile {
   PlanetInfo info;
   std::vector<StoredLayer> layers;
+  std::vector<StoredInset> insets = {};
 
   friend bool operator==(const PlanetFile&, const PlanetFile&) = default;
 };
@@ -42,8 +64,8 @@ struct PlanetFile {
 /// Reads FOLDER/planet.json. Throws globe::Error when it is absent, malformed or of a newer format version.
 PlanetFile read_planet_file(const std::filesystem::path& folder);
 
-/// Writes FOLDER/planet.json under a temporary name, syncs it to disk and renames it; `info.layers` and
-/// `info.id` are derived from `layers` and the rest.
+/// Writes FOLDER/planet.json under a temporary name, syncs it to disk and renames it; `info.layers`,
+/// `info.insets` and `info.id` are derived from the rest.
 void write_planet_file(const std::filesystem::path& folder, PlanetFile file);
 
 /// Size and hash of a file on disk. Throws globe::Error when it cannot be read.

@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "globe/planet/directions.h"
+#include "globe/planet/inset_stack.h"
+#include "globe/planet/map_color.h"
 #include "globe/planet/measure.h"
 #include "globe/planet/synthesis.h"
+#include "globe/planet/tile_nodes.h"
 
 namespace globe::planet {
 namespace {
@@ -18,15 +21,26 @@ constexpr int kRootLevel = 6;  ///< 64 cells a side: the finest level that is on
 
 int guard_of(bool own_nodes_only) { return own_nodes_only ? 0 : kTileGuard; }
 
-/// Linear light of an sRGB value in [0, 1] (IEC 61966-2-1).
-float linear_from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
-
 PlanetInfo builtin_info(std::uint64_t seed) {
   PlanetInfo info;
   info.name = "procedural:" + std::to_string(seed);
   info.body = "other";
   info.vertical_datum = "ellipsoid";
   return info;
+}
+
+std::shared_ptr<const SurfaceTile> with_insets(const InsetStack& stack,
+                                               std::shared_ptr<const SurfaceTile> base,
+                                               std::vector<InsetTile> tiles) {
+  if (tiles.empty()) return base;
+  auto whole = std::make_shared<SurfaceTile>(stack.put_together(*base, tiles));
+  whole->parts = std::make_shared<const TileParts>(TileParts{std::move(base), std::move(tiles)});
+  return whole;
+}
+
+/// True for channels that only heights have a use for.
+bool goes_with_heights(Channel channel) {
+  return channel == Channel::kRoughness || channel == Channel::kProminence || channel >= Channel::kCarved;
 }
 
 }  // namespace
@@ -42,6 +56,7 @@ std::size_t SurfaceTile::bytes() const {
   std::size_t sum = sizeof(SurfaceTile) + sizeof(double) * height.values.capacity();
   if (relief) sum += sizeof(double) * relief->values.capacity();
   for (const TileValues<float>& channel : channels) sum += sizeof(float) * channel.values.capacity();
+  if (parts) sum += parts->bytes();
   return sum;
 }
 
@@ -72,7 +87,10 @@ Surface::Surface(PlanetInfo info, std::shared_ptr<const Dataset> dataset, std::u
     builtin_.emplace(seed);
     data_level_ = kBuiltinLevel;
   }
+  insets_ = std::make_unique<const InsetStack>(dataset_, synthesis());
 }
+
+Surface::~Surface() = default;
 
 double Surface::root_edge() const { return ellipsoid().mean_radius() * std::numbers::pi / 2.0; }
 
@@ -118,6 +136,9 @@ void Surface::make_roots() const {
       roots_[static_cast<std::size_t>(level)][d] = std::make_shared<const SurfaceTile>(std::move(tiles[d]));
     }
   }
+  for (auto& level : roots_) {
+    for (auto& root : level) root = with_insets(*insets_, root, insets_->tiles(root->id, nullptr));
+  }
 }
 
 std::shared_ptr<const SurfaceTile> Surface::tile_at_hand(const TileId& id) const {
@@ -149,10 +170,27 @@ std::shared_ptr<const SurfaceTile> Surface::tile(const TileId& id) const {
 
 std::shared_ptr<const SurfaceTile> Surface::make_tile(const TileId& id) const {
   const std::shared_ptr<const SurfaceTile> parent = tile(id.parent());
+  if (insets_->empty()) return make_base(*parent, id, false);
+  std::vector<InsetTile> insets = insets_->tiles(id, parent->parts.get());
+  const bool hidden = insets_->hide_base(insets);
+  return with_insets(*insets_, make_base(parent->parts ? *parent->parts->base : *parent, id, hidden),
+                     std::move(insets));
+}
+
+std::shared_ptr<const SurfaceTile> Surface::make_base(const SurfaceTile& parent, const TileId& id,
+                                                      bool hidden) const {
   auto child = std::make_shared<SurfaceTile>(empty_tile(id));
-  predict(parent->height, child->height);
+  hidden = hidden || parent.height.values.empty();
+  if (hidden) {
+    child->height.values.clear();
+    for (std::size_t c = 0; c < kChannels; ++c)
+      if (goes_with_heights(static_cast<Channel>(c))) child->channels[c].values.clear();
+  } else {
+    predict(parent.height, child->height);
+  }
   for (std::size_t c = 0; c < kChannels; ++c) {
-    if (inherits(static_cast<Channel>(c), id.level)) predict(parent->channels[c], child->channels[c]);
+    if (!child->channels[c].values.empty() && inherits(static_cast<Channel>(c), id.level))
+      predict(parent.channels[c], child->channels[c]);
   }
   finish_tile(*child, false);
   return child;
@@ -166,19 +204,11 @@ bool Surface::has_channel(Channel channel, int level) const {
       return has_colors();
     case Channel::kMoisture:
       return builtin_.has_value();
-    case Channel::kCarved:
-    case Channel::kSlopeX:
-    case Channel::kSlopeY:
-    case Channel::kSlopeZ:
-      return level >= data_level_ && level <= synthesis().carved_level() &&
-             synthesis().carved_level() > data_level_;
-    case Channel::kRoughness:
-    case Channel::kProminence:
-      return level >= data_level_;
     case Channel::kMottle:
       return true;
+    default:
+      return synthesis().has_channel(channel, level);
   }
-  return true;
 }
 
 bool Surface::inherits(Channel channel, int level) const {
@@ -199,6 +229,11 @@ void Surface::finish_tile(SurfaceTile& tile, bool own_nodes_only) const {
   const int level = tile.id.level;
   synthesise_mottle(seed_, own_nodes_only, tile);
   if (level <= color_level_) read_layer("color", tile, own_nodes_only);
+  if (!tile.height.values.empty()) finish_heights(tile, own_nodes_only);
+}
+
+void Surface::finish_heights(SurfaceTile& tile, bool own_nodes_only) const {
+  const int level = tile.id.level;
   if (level > data_level_) {
     synthesise_detail(synthesis(), own_nodes_only, tile);
     return;
@@ -271,74 +306,47 @@ void Surface::read_layer(const char* layer, SurfaceTile& tile, bool own_nodes_on
 }
 
 std::vector<float> Surface::read_nodes(const char* layer, const TileId& id, int guard) const {
-  const int n = nodes_per_side(id.level);
-  const auto channels = static_cast<std::size_t>(dataset_->layer(layer)->channels);
-  const int i0 = std::max(id.first_i() - guard, 0);
-  const int i1 = std::min(id.first_i() + id.cells() + guard, n);
-  const int j0 = std::max(id.first_j() - guard, 0);
-  const int j1 = std::min(id.first_j() + id.cells() + guard, n);
-  const auto row = static_cast<std::size_t>(i1 - i0 + 1) * channels;
-  std::vector<float> own(row * static_cast<std::size_t>(j1 - j0 + 1));
-  dataset_->read(layer, id.d, id.level, i0, j0, i1 - i0 + 1, j1 - j0 + 1, own.data());
-  const auto stride = static_cast<std::size_t>(id.cells() + 1 + 2 * guard);
-  if (own.size() == stride * stride * channels) return own;
-  std::vector<float> values(stride * stride * channels);
-  float* value = values.data();
-  for_each_node(id, guard, [&](int i, int j, const Node& node) {
-    if (i >= i0 && i <= i1 && j >= j0 && j <= j1) {
-      const float* from =
-          &own[static_cast<std::size_t>(j - j0) * row + static_cast<std::size_t>(i - i0) * channels];
-      std::copy_n(from, channels, value);
-    } else {
-      dataset_->read(layer, node.d, node.level, node.i, node.j, 1, 1, value);
-    }
-    value += channels;
-  });
-  return values;
+  return read_tile_nodes(id, guard, static_cast<std::size_t>(dataset_->layer(layer)->channels),
+                         [&](int d, int level, int i0, int j0, int ni, int nj, float* out) {
+                           dataset_->read(layer, d, level, i0, j0, ni, nj, out);
+                         });
 }
 
 double Surface::height(const Node& node) const {
-  if (node.level <= data_level_) return measured_height(node);
+  if (node.level <= data_level_) return insets_->data_height(node, measured_height(node));
   return tile(tile_of(node))->height.at(node.i, node.j);
 }
 
-namespace {
-
-/// The three nodes of the level's trixel that holds a place, and their weights in it.
-struct Corners {
-  std::array<Node, 3> nodes;
-  std::array<double, 3> weights;
-};
-
-Corners corners_at(const dvec3& u, int level) {
-  const Place place = locate(u, level);
-  const int n = nodes_per_side(level);
-  const int i = std::min(static_cast<int>(place.ij.x), n - 1);
-  const int j = std::min(static_cast<int>(place.ij.y), n - 1);
-  const double x = place.ij.x - i;
-  const double y = place.ij.y - j;
-  const auto at = [&](int di, int dj) { return Node{place.d, level, i + di, j + dj}; };
-  if (x + y <= 1.0) return {{at(0, 0), at(1, 0), at(0, 1)}, {1.0 - x - y, x, y}};
-  return {{at(1, 1), at(0, 1), at(1, 0)}, {x + y - 1.0, 1.0 - x, 1.0 - y}};
+double Surface::data_height(const Node& node) const {
+  const double own =
+      node.level <= data_level_
+          ? measured_height(node)
+          : trixel_nodes(node, data_level_).sum([&](const Node& corner) { return measured_height(corner); });
+  return insets_->data_height(node, own);
 }
 
-}  // namespace
+DataSource Surface::data_at(const dvec3& u) const {
+  const InsetStack::DataAt found = insets_->data_at(u);
+  if (!found.inset) return {data_level_, {}, false};
+  return {std::max(found.level, data_level_), info_.insets[*found.inset].name, found.alone};
+}
+
+int Surface::finest_data_level() const { return std::max(data_level_, insets_->finest_level()); }
 
 double Surface::height(const dvec3& u, int level) const {
-  const auto [nodes, weights] = corners_at(u, level);
-  return weights[0] * height(nodes[0]) + weights[1] * height(nodes[1]) + weights[2] * height(nodes[2]);
+  const Place place = locate(u, level);
+  return trixel_nodes(place.d, level, place.ij).sum([&](const Node& node) { return height(node); });
 }
 
 double Surface::height_at_hand(const dvec3& u, int level) const {
   for (; level > std::max(data_level_, kRootLevel); --level) {
-    const auto [nodes, weights] = corners_at(u, level);
-    double sum = 0.0;
+    const Place place = locate(u, level);
     bool known = true;
-    for (std::size_t k = 0; known && k < nodes.size(); ++k) {
-      const auto tile = tile_at_hand(tile_of(nodes[k]));
-      known = tile != nullptr;
-      if (known) sum += weights[k] * tile->height.at(nodes[k].i, nodes[k].j);
-    }
+    const double sum = trixel_nodes(place.d, level, place.ij).sum([&](const Node& node) {
+      const auto tile = tile_at_hand(tile_of(node));
+      known = known && tile != nullptr;
+      return tile != nullptr ? tile->height.at(node.i, node.j) : 0.0;
+    });
     if (known) return sum;
   }
   return height(u, level);

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -35,7 +36,9 @@ enum class Channel {
 };
 inline constexpr std::size_t kChannels = 11;
 
+class InsetStack;
 struct Synthesis;
+struct TileParts;
 
 /// Everything known about the nodes of one tile. Immutable once made.
 struct SurfaceTile {
@@ -45,6 +48,9 @@ struct SurfaceTile {
   /// level on).
   std::optional<TileValues<double>> relief;
   std::array<TileValues<float>, kChannels> channels;  ///< those not in use have no values
+  /// What it is put together from, where insets touch it; else null. Such tiles lack the channels from
+  /// kCarved on, which their parts have.
+  std::shared_ptr<const TileParts> parts;
 
   explicit SurfaceTile(const TileId& tile);
 
@@ -59,7 +65,15 @@ struct SurfaceTile {
   const TileValues<double>& shading_height() const { return relief ? *relief : height; }
 };
 
-/// The ground of a planet at any node and any level: data where there are data, synthesised below them.
+/// Where the height of a place comes from.
+struct DataSource {
+  int level = 0;             ///< finest level of the data there
+  std::string_view inset{};  ///< name of the topmost inset there; empty where there is none
+  bool inset_alone = false;  ///< the planet's own data have no say
+};
+
+/// The ground of a planet at any node and any level: data where there are data, synthesised below them;
+/// insets laid over both (inset_stack.h).
 ///
 /// Height is a function of the node alone. Tiles are made from their parents and kept in a cache of limited
 /// size, least recently used out first; every member is safe to call from any thread.
@@ -77,6 +91,11 @@ class Surface {
 
   /// Height of a node, metres above the ellipsoid; down to the data level it costs no tile.
   double height(const Node& node) const;
+  /// Height of a node by the data alone: below the level of the planet's data, or an inset's, these are
+  /// linear in their trixels. The same as height(node) down to the data level. REQUIRES: has_data().
+  double data_height(const Node& node) const;
+  /// The finest data at a place: data_level() but where there are insets.
+  DataSource data_at(const dvec3& u) const;
   /// Height of the flat level-L trixel above a direction: linear between its three nodes.
   double height(const dvec3& u, int level) const;
   /// The same at the finest level up to `level` whose ground is known already: nothing is synthesised, so it
@@ -87,9 +106,13 @@ class Surface {
   /// What the planet was made from; null for the built-in planet.
   const Dataset* dataset() const { return dataset_.get(); }
   const geo::Ellipsoid& ellipsoid() const { return info_.ellipsoid; }
-  /// Finest level with measured heights (built-in planet: with its own function); what is finer is
-  /// synthesised.
+  /// Finest level with measured heights of the whole planet (built-in planet: with its own function); what is
+  /// finer is synthesised, but where there are insets.
   int data_level() const { return data_level_; }
+  /// Finest level of any data, insets included.
+  int finest_data_level() const;
+  /// Insets of heights or colors.
+  const InsetStack& insets() const { return *insets_; }
   /// True for a planet made of maps; what the built-in planet has is all synthesised.
   bool has_data() const { return dataset_ != nullptr; }
   /// False for a planet made of a colour map alone, whose ground is at height 0 down to level 0.
@@ -102,6 +125,8 @@ class Surface {
   double drawn_height(double height_m) const { return has_sea() && height_m < 0.0 ? 0.0 : height_m; }
   /// Length of a level-0 edge along the mean sphere, metres; a level-L edge is about 2^-L of it.
   double root_edge() const;
+
+  ~Surface();
 
  private:
   Surface(PlanetInfo info, std::shared_ptr<const Dataset> dataset, std::uint64_t seed,
@@ -116,10 +141,14 @@ class Surface {
   };
 
   std::shared_ptr<const SurfaceTile> make_tile(const TileId& id) const;
+  /// The ground without insets; without heights and what goes with them when the parent lacks them or they
+  /// are `hidden`.
+  std::shared_ptr<const SurfaceTile> make_base(const SurfaceTile& parent, const TileId& id,
+                                               bool hidden) const;
   /// The tile if it has been made and is still held, else null.
   std::shared_ptr<const SurfaceTile> tile_at_hand(const TileId& id) const;
   void make_roots() const;
-  /// Height of a node of the data's finest level or a coarser one, from the data alone.
+  /// Height of a node of the data's finest level or a coarser one, from the planet's own data alone.
   double measured_height(const Node& node) const;
   Synthesis synthesis() const;
   /// Channels that tiles of a level have.
@@ -129,6 +158,7 @@ class Surface {
   SurfaceTile empty_tile(const TileId& id) const;
   /// Fills data and synthesised detail into a predicted tile; `own_nodes_only` leaves the guard alone.
   void finish_tile(SurfaceTile& tile, bool own_nodes_only) const;
+  void finish_heights(SurfaceTile& tile, bool own_nodes_only) const;
   void read_layer(const char* layer, SurfaceTile& tile, bool own_nodes_only) const;
   /// A layer's samples at the nodes of a tile and `guard` nodes beyond, row by row.
   std::vector<float> read_nodes(const char* layer, const TileId& id, int guard) const;
@@ -139,6 +169,7 @@ class Surface {
   std::shared_ptr<const Dataset> dataset_;  ///< null for the built-in planet
   std::uint64_t seed_;
   std::optional<BuiltinPlanet> builtin_;  ///< where there is no data set
+  std::unique_ptr<const InsetStack> insets_;
   int data_level_ = 0;
   int color_level_ = -1;
   mutable std::once_flag roots_made_;

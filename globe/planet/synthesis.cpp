@@ -42,6 +42,21 @@ ReliefScale Synthesis::relief_scale() const {
           edge_m(data_level), finest_wave_m(), craters};
 }
 
+bool Synthesis::has_channel(Channel channel, int level) const {
+  switch (channel) {
+    case Channel::kCarved:
+    case Channel::kSlopeX:
+    case Channel::kSlopeY:
+    case Channel::kSlopeZ:
+      return level >= data_level && level <= carved_level() && carved_level() > data_level;
+    case Channel::kRoughness:
+    case Channel::kProminence:
+      return level >= data_level;
+    default:
+      return false;
+  }
+}
+
 namespace {
 
 /// New nodes of a level that is still carved.

@@ -28,6 +28,8 @@ struct Synthesis {
   /// Finest level that is carved; the data level when the data are finer than what is carved.
   int carved_level() const;
   ReliefScale relief_scale() const;
+  /// Whether tiles of a level have a channel that synthesis works on, from kRoughness on.
+  bool has_channel(Channel channel, int level) const;
 };
 
 inline constexpr int kBuiltinLevel = 9;  ///< the built-in planet's own function ends here: cells of 20 km

@@ -177,7 +177,7 @@ TEST(Dataset, RefusesBrokenPlanetsWithOneClearLine) {
   EXPECT_NE(open_error().find("color_0.tif: not a readable TIFF"), std::string::npos) << open_error();
 
   write_planet(folder.path());
-  replace_in_json(folder.path(), "\"version\": 1", "\"version\": 2");
+  replace_in_json(folder.path(), "\"version\": 1", "\"version\": 3");
   EXPECT_NE(open_error().find("newer"), std::string::npos) << open_error();
 
   write_planet(folder.path());
