@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -6,6 +7,7 @@
 #include "globe/base/error.h"
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit is then a write that fails, and told in one line
   CLI::App program("A planet-scale globe: fly over it, convert maps to it, ask it questions.", "globe");
   program.set_version_flag("--version", app::version());
   program.require_subcommand(1);

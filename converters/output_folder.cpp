@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kRecipe = "recipe.json";
+
 bool is_planet(const fs::path& folder) {
   return fs::is_regular_file(folder / globe::planet::kPlanetFileName);
 }
@@ -108,7 +110,7 @@ OutputFolder::OutputFolder(const fs::path& planet, bool overwrite, const std::st
 
 void OutputFolder::set_up(const std::string& recipe, bool overwrite) {
   const Lock lock(work_ / "setup.lock");
-  const fs::path path = work_ / "recipe.json";
+  const fs::path path = work_ / kRecipe;
   const std::optional<std::string> begun = read_text(path);
   if (begun == recipe) return;
   if (begun && any_done() && !(overwrite && sharing_ == Sharing::kAlone)) {
@@ -119,7 +121,14 @@ void OutputFolder::set_up(const std::string& recipe, bool overwrite) {
   write_text(path, recipe);
 }
 
+/// The recipe goes first: without it nothing that is left counts, whenever we are interrupted.
+void OutputFolder::forget_recipe() const {
+  fs::remove(work_ / kRecipe);
+  globe::planet::sync_to_disk(work_);
+}
+
 void OutputFolder::clear() const {
+  forget_recipe();
   for (const fs::path& folder : {partial_, work_}) {
     for (const fs::directory_entry& leftover : fs::directory_iterator(folder)) {
       if (leftover.path() != work_ && leftover.path().filename() != "setup.lock")
@@ -168,6 +177,7 @@ OutputFolder::~OutputFolder() {
 }
 
 void OutputFolder::finish() {
+  forget_recipe();
   fs::remove_all(work_);
   globe::planet::sync_to_disk(partial_);
   const bool replaces = fs::exists(planet_);

@@ -48,6 +48,7 @@ class OutputFolder {
 
  private:
   void set_up(const std::string& recipe, bool overwrite);
+  void forget_recipe() const;
   void clear() const;
   bool any_done() const;
 

@@ -1,4 +1,3 @@
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -10,23 +9,14 @@
 #include <thread>
 
 #include "tests/cli/run_program.h"
+#include "tests/cli/write_map.h"
 
 namespace {
 
 using cli::Outcome;
 using cli::run_program;
+using cli::write_map;
 using tests::TemporaryFolder;
-
-void write_map(const std::filesystem::path& path, int width, int height) {
-  std::vector<float> samples;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) samples.push_back(static_cast<float>((x * 37 + y * 91) % 1000));
-  }
-  const auto output = OIIO::ImageOutput::create(path.string());
-  ASSERT_TRUE(output &&
-              output->open(path.string(), OIIO::ImageSpec(width, height, 1, OIIO::TypeDesc::FLOAT)));
-  ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, samples.data()) && output->close());
-}
 
 /// One line for people: "globe: WHAT: WHY; WHAT TO DO".
 void expect_refusal(const Outcome& result, int status, const std::string& part) {
