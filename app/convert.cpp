@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/mpi_team.h"
 #include "app/parse_options.h"
 #include "app/progress.h"
 #include "converters/convert.h"
@@ -108,6 +109,20 @@ converters::ConvertOptions options_from(const Arguments& arguments) {
   return options;
 }
 
+/// The first member speaks for all. A failure is told here: with the team's end the process ends.
+void convert_with_mpi(const converters::ConvertOptions& options,
+                      const converters::ConvertListener& listener) {
+  const bool first = mpi_place().rank == 0;
+  constexpr std::size_t kLists = 2;  // heights and colors
+  const std::unique_ptr<converters::Team> team = make_mpi_team(kLists);
+  try {
+    converters::convert_with(*team, options, first ? listener : converters::ConvertListener{});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "globe: %s\n", error.what());
+    throw;
+  }
+}
+
 void convert(const Arguments& arguments) {
   const converters::ConvertOptions options = options_from(arguments);
   Progress progress(progress_style(arguments.quiet, arguments.progress == "json"));
@@ -125,6 +140,8 @@ void convert(const Arguments& arguments) {
     for (std::size_t k = 0; k < jobs.size(); ++k) std::printf("%zu %s\n", k, name_of(jobs[k]).c_str());
   } else if (arguments.job >= 0) {
     converters::convert_job(arguments.job, options, listener);
+  } else if (mpi_place().size > 1) {
+    convert_with_mpi(options, listener);
   } else {
     converters::convert(options, listener);
   }
