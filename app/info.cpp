@@ -1,14 +1,17 @@
 #include "app/info.h"
 
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "app/planet_argument.h"
-#include "globe/base/error.h"
+#include "app/progress.h"
 #include "globe/planet/dataset.h"
 #include "globe/planet/planet_file.h"
+#include "globe/planet/verify.h"
 
 namespace app {
 namespace {
@@ -16,6 +19,8 @@ namespace {
 using nlohmann::ordered_json;
 
 using globe::planet::kBuiltinRelief_m;
+
+constexpr std::size_t kVerifyCache = std::size_t{128} << 20;
 
 struct Arguments {
   std::string planet;
@@ -29,18 +34,48 @@ std::uint64_t bytes_of(const globe::planet::StoredLayer& layer) {
   return bytes;
 }
 
-ordered_json to_json(const globe::planet::PlanetFile& file) {
+/// Nodes of the finest level of a layer, in all four diamonds; those on borders count on both sides.
+std::uint64_t nodes_of(const globe::planet::LayerInfo& layer) {
+  const auto side = static_cast<std::uint64_t>(globe::planet::nodes_per_side(layer.level)) + 1;
+  return globe::planet::kDiamonds * side * side;
+}
+
+/// Pixels of the map that is as fine along the equator: 4n x 2n.
+double map_pixels_of(const globe::planet::LayerInfo& layer) {
+  const double n = globe::planet::nodes_per_side(layer.level);
+  return 8.0 * n * n;
+}
+
+/// Mean height of the planet, weighted by area, of the layer's level 0: eight trixels of equal area.
+std::optional<double> mean_height(const std::string& planet) {
+  const auto data = globe::planet::Dataset::open(planet, 0);
+  if (data.layer("height_mean") == nullptr) return std::nullopt;
+  double sum = 0;
+  for (int d = 0; d < globe::planet::kDiamonds; ++d) {
+    std::array<float, 2> means{};
+    data.read("height_mean", d, 0, 0, 0, 1, 1, means.data());
+    sum += static_cast<double>(means[0]) + static_cast<double>(means[1]);
+  }
+  return sum / (2.0 * globe::planet::kDiamonds);
+}
+
+ordered_json to_json(const globe::planet::PlanetFile& file, const std::optional<double>& mean_height_m) {
   const globe::planet::PlanetInfo& info = file.info;
   ordered_json layers = ordered_json::array();
   std::uint64_t bytes = 0;
   for (const globe::planet::StoredLayer& layer : file.layers) {
-    layers.push_back({{"name", layer.info.name},
-                      {"level", layer.info.level},
-                      {"channels", layer.info.channels},
-                      {"storage", layer.info.storage},
-                      {"min", layer.info.min},
-                      {"max", layer.info.max},
-                      {"bytes", bytes_of(layer)}});
+    const bool has_mean = layer.info.name == "height" && mean_height_m;
+    layers.push_back(
+        {{"name", layer.info.name},
+         {"level", layer.info.level},
+         {"channels", layer.info.channels},
+         {"storage", layer.info.storage},
+         {"min", layer.info.min},
+         {"mean", has_mean ? ordered_json(*mean_height_m) : ordered_json()},
+         {"max", layer.info.max},
+         {"nodes", nodes_of(layer.info)},
+         {"nodes_to_map_pixels", static_cast<double>(nodes_of(layer.info)) / map_pixels_of(layer.info)},
+         {"bytes", bytes_of(layer)}});
     bytes += bytes_of(layer);
   }
   return {{"name", info.name},
@@ -49,9 +84,32 @@ ordered_json to_json(const globe::planet::PlanetFile& file) {
           {"ellipsoid", {{"a", info.ellipsoid.a}, {"f", info.ellipsoid.f}}},
           {"datum", info.vertical_datum},
           {"tile_size", info.tile_size},
+          {"extent", {-180, -90, 180, 90}},
           {"bytes", bytes},
           {"layers", layers},
           {"credits", info.credits}};
+}
+
+std::string fixed(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", value);
+  return text;
+}
+
+/// The layer that came from a map, beside a map as fine along the equator.
+void print_samples(const ordered_json& layers) {
+  for (const ordered_json& layer : layers) {
+    const std::string name = layer["name"];
+    if (name != "height" && name != "color") continue;
+    const int n = globe::planet::nodes_per_side(layer["level"].get<int>());
+    std::printf("samples    %s: %.0f nodes, %.4f of the %d x %d pixels of an equally fine map", name.c_str(),
+                layer["nodes"].get<double>(), layer["nodes_to_map_pixels"].get<double>(), 4 * n, 2 * n);
+    const double bytes = layer["bytes"].get<double>();
+    if (bytes > 0.0)
+      std::printf("; %.3f bytes a node on disk, coarser levels included",
+                  bytes / layer["nodes"].get<double>());
+    std::printf("\n");
+  }
 }
 
 void print_text(const ordered_json& info) {
@@ -63,15 +121,17 @@ void print_text(const ordered_json& info) {
   std::printf("ellipsoid  a %.3f m, f %s\n", info["ellipsoid"]["a"].get<double>(), flattening.c_str());
   std::printf("datum      %s\n", info["datum"].get<std::string>().c_str());
   std::printf("bytes      %llu\n", static_cast<unsigned long long>(info["bytes"].get<std::uint64_t>()));
-  std::printf("%-14s %5s %8s %-8s %12s %12s %14s\n", "layer", "level", "channels", "storage", "min", "max",
-              "bytes");
+  std::printf("%-14s %5s %8s %-8s %12s %12s %12s %14s %14s\n", "layer", "level", "channels", "storage", "min",
+              "mean", "max", "nodes", "bytes");
   for (const ordered_json& layer : info["layers"]) {
-    std::printf("%-14s %5d %8d %-8s %12.3f %12.3f %14llu\n", layer["name"].get<std::string>().c_str(),
-                layer["level"].get<int>(), layer["channels"].get<int>(),
-                layer["storage"].get<std::string>().c_str(), layer["min"].get<double>(),
-                layer["max"].get<double>(),
-                static_cast<unsigned long long>(layer["bytes"].get<std::uint64_t>()));
+    const std::string mean = layer["mean"].is_null() ? "-" : fixed(layer["mean"].get<double>());
+    std::printf(
+        "%-14s %5d %8d %-8s %12.3f %12s %12.3f %14.0f %14llu\n", layer["name"].get<std::string>().c_str(),
+        layer["level"].get<int>(), layer["channels"].get<int>(), layer["storage"].get<std::string>().c_str(),
+        layer["min"].get<double>(), mean.c_str(), layer["max"].get<double>(), layer["nodes"].get<double>(),
+        static_cast<unsigned long long>(layer["bytes"].get<std::uint64_t>()));
   }
+  print_samples(info["layers"]);
   for (const ordered_json& credit : info["credits"])
     std::printf("credit     %s\n", credit.get<std::string>().c_str());
 }
@@ -94,25 +154,40 @@ globe::planet::PlanetFile described(const std::string& planet) {
   return globe::planet::read_planet_file(planet);
 }
 
+/// What --verify finds; nothing can be wrong with a planet that is computed.
+globe::planet::Verification verify(const Arguments& arguments) {
+  if (procedural_seed(arguments.planet)) return {};
+  Progress progress(progress_style(arguments.json, false));
+  return globe::planet::verify_planet(
+      arguments.planet, kVerifyCache,
+      [&](const std::string& stage, double fraction) { progress.show(stage, fraction); });
+}
+
 void info(const Arguments& arguments, int& exit_status) {
-  ordered_json json = to_json(described(arguments.planet));
-  if (arguments.verify && procedural_seed(arguments.planet)) {
-    json["damage"] = ordered_json::array();
-  } else if (arguments.verify) {
-    json["damage"] = globe::planet::find_damage(arguments.planet);
-    if (!json["damage"].empty()) exit_status = 1;
+  const globe::planet::PlanetFile file = described(arguments.planet);
+  const bool computed = procedural_seed(arguments.planet).has_value();
+  ordered_json json = to_json(file, computed ? std::nullopt : mean_height(arguments.planet));
+  globe::planet::Verification found;
+  if (arguments.verify) {
+    found = verify(arguments);
+    json["damage"] = found.damage;
+    json["verified"] = {{"files", found.files}, {"nodes", found.nodes}};
+    if (!found.damage.empty()) exit_status = 1;
   }
   if (arguments.json) {
     std::printf("%s\n", json.dump().c_str());
-  } else {
-    print_text(json);
-    if (arguments.verify && exit_status == 0) std::printf("verified   every file is as it was written\n");
+    return;
   }
-  if (!arguments.verify || arguments.json) return;
-  for (const ordered_json& line : json["damage"]) {
-    std::fprintf(stderr, "globe: %s: %s; convert the map again\n", arguments.planet.c_str(),
-                 line.get<std::string>().c_str());
+  print_text(json);
+  if (arguments.verify && computed) std::printf("verified   nothing is stored\n");
+  if (arguments.verify && !computed && found.damage.empty()) {
+    std::printf(
+        "verified   %llu files are as they were written; %llu nodes of all layers and levels: finite, "
+        "borders equal on both sides, coarse heights those of the finer level, ranges hold their cells\n",
+        static_cast<unsigned long long>(found.files), static_cast<unsigned long long>(found.nodes));
   }
+  for (const std::string& line : found.damage)
+    std::fprintf(stderr, "globe: %s: %s; convert the map again\n", arguments.planet.c_str(), line.c_str());
 }
 
 }  // namespace
@@ -123,7 +198,7 @@ void add_info(CLI::App& program, int& exit_status) {
       program.add_subcommand("info", "What a planet is made of: ellipsoid, layers, ranges, credits");
   command->add_option("planet", arguments->planet, "folder made by globe convert, or procedural[:SEED]")
       ->required();
-  command->add_flag("--verify", arguments->verify, "compare every file with its checksum");
+  command->add_flag("--verify", arguments->verify, "check every file and every sample");
   command->add_flag("--json", arguments->json, "one JSON object");
   command->callback([arguments, &exit_status] { info(*arguments, exit_status); });
 }

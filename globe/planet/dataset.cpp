@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/imageio.h>
+#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <array>
@@ -100,6 +101,19 @@ struct Dataset::State {
   std::vector<Layer> layers;
   std::vector<std::vector<InsetSamples>> insets;
   CachePtr cache;
+  /// What the cache keeps for each thread. Left to itself it finds that by its own address, and threads that
+  /// outlive a cache then bring what they kept to the next one in the same place: a crash.
+  mutable tbb::enumerable_thread_specific<OIIO::ImageCache::Perthread*> threads;
+
+  ~State() {
+    for (OIIO::ImageCache::Perthread* thread : threads) cache->destroy_thread_info(thread);
+  }
+  OIIO::ImageCache::Perthread* this_thread() const {
+    bool known = false;
+    OIIO::ImageCache::Perthread*& thread = threads.local(known);
+    if (!known) thread = cache->create_thread_info();
+    return thread;
+  }
 
   const Layer* find(std::string_view name) const {
     const auto it = std::find_if(layers.begin(), layers.end(),
@@ -140,7 +154,7 @@ void Dataset::State::copy_window(const Pyramid& pyramid, int level, int i0, int 
   const int first_j = std::max(j0, held.j0), last_j = std::min(j0 + nj - 1, held.j1);
   if (last_i < first_i || last_j < first_j) return;
   const auto channels = static_cast<std::size_t>(pyramid.channels);
-  OIIO::ImageCache::Perthread* thread = cache->get_perthread_info();
+  OIIO::ImageCache::Perthread* thread = this_thread();
   for (int tj = (first_j - held.j0) / t * t; tj <= last_j - held.j0; tj += t) {
     for (int ti = (first_i - held.i0) / t * t; ti <= last_i - held.i0; ti += t) {
       OIIO::ImageCache::Tile* tile =

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -248,19 +249,30 @@ PlanetFile read_planet_file(const std::filesystem::path& folder) {
   }
 }
 
+namespace {
+
+/// The digest of everything else.
+std::string id_of(PlanetFile file) {
+  file.info.id.clear();
+  const std::string text = to_json(file).dump();
+  return hex(XXH3_64bits(text.data(), text.size()));
+}
+
+std::string text_of(const PlanetFile& file) { return to_json(file).dump(2) + '\n'; }
+
+}  // namespace
+
 void write_planet_file(const std::filesystem::path& folder, PlanetFile file) {
   file.info.layers.clear();
   for (const StoredLayer& layer : file.layers) file.info.layers.push_back(layer.info);
   file.info.insets.clear();
   for (const StoredInset& inset : file.insets) file.info.insets.push_back(inset.info);
-  file.info.id.clear();
-  const std::string without_id = to_json(file).dump();
-  file.info.id = hex(XXH3_64bits(without_id.data(), without_id.size()));
+  file.info.id = id_of(file);
   const std::filesystem::path path = folder / kPlanetFileName;
   const std::filesystem::path temporary = folder / "planet.json.tmp";
   {
     std::ofstream stream(temporary, std::ios::binary);
-    stream << to_json(file).dump(2) << '\n';
+    stream << text_of(file);
     if (!stream.flush())
       throw Error(temporary.string(), "cannot be written", "check the space left on the disk");
   }
@@ -295,7 +307,12 @@ void sync_to_disk(const std::filesystem::path& path) {
 
 std::vector<std::string> find_damage(const std::filesystem::path& folder) {
   std::vector<std::string> damage;
-  for (const StoredFile& file : all_files(read_planet_file(folder))) {
+  const PlanetFile planet = read_planet_file(folder);
+  std::ifstream stream(folder / kPlanetFileName, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (id_of(planet) != planet.info.id || text_of(planet) != text)
+    damage.push_back(std::string(kPlanetFileName) + ": not as it was written");
+  for (const StoredFile& file : all_files(planet)) {
     try {
       const StoredFile found = describe_file(folder / file.name);
       if (found.bytes != file.bytes) {

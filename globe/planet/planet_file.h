@@ -74,7 +74,8 @@ StoredFile describe_file(const std::filesystem::path& path);
 /// Flushes a file or folder to disk. Throws globe::Error when that fails.
 void sync_to_disk(const std::filesystem::path& path);
 
-/// One line for each file of the planet whose bytes differ from what planet.json says; reads everything.
+/// One line for each file of the planet whose bytes differ from what planet.json says, and for planet.json
+/// itself when it is not as write_planet_file left it; reads everything.
 std::vector<std::string> find_damage(const std::filesystem::path& folder);
 
 }  // namespace globe::planet

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <barrier>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -156,6 +158,38 @@ TEST(Dataset, ReadsTheSameFromManyThreadsThroughATinyCache) {
   }
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(wrong, std::vector<int>(8, 0));
+}
+
+TEST(Dataset, ReadsFromThreadsThatOutliveTheDatasetsBefore) {
+  const tests::TemporaryFolder folder;
+  write_planet(folder.path());
+  std::barrier<> turn(5);
+  std::optional<Dataset> dataset;
+  std::vector<int> wrong(4, 0);
+  constexpr int kDatasets = 30;
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < wrong.size(); ++t) {
+    threads.emplace_back([&, t] {
+      for (int round = 0; round < kDatasets; ++round) {
+        turn.arrive_and_wait();
+        for (int k = 0; k < 20; ++k) {
+          const int i = (k * 37 + 50 * static_cast<int>(t)) % 250;
+          float out = 0;
+          dataset->read("height", k % kDiamonds, kLevel, i, k * 11, 1, 1, &out);
+          wrong[t] += out != sample(k % kDiamonds, kLevel, i, k * 11);
+        }
+        turn.arrive_and_wait();
+      }
+    });
+  }
+  for (int round = 0; round < kDatasets; ++round) {
+    dataset.emplace(Dataset::open(folder.path(), 1 << 20));
+    turn.arrive_and_wait();
+    turn.arrive_and_wait();
+    dataset.reset();
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, std::vector<int>(4, 0));
 }
 
 TEST(Dataset, RefusesBrokenPlanetsWithOneClearLine) {
