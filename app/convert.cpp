@@ -1,10 +1,12 @@
 #include "app/convert.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <map>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/commands.h"
@@ -110,9 +112,12 @@ converters::ConvertOptions options_from(const Arguments& arguments) {
 }
 
 /// The first member speaks for all. A failure is told here: with the team's end the process ends.
-void convert_with_mpi(const converters::ConvertOptions& options,
-                      const converters::ConvertListener& listener) {
-  const bool first = mpi_place().rank == 0;
+void convert_with_mpi(converters::ConvertOptions options, const converters::ConvertListener& listener) {
+  const MpiPlace place = mpi_place();
+  const bool first = place.rank == 0;
+  if (options.threads == 0) {
+    options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / place.local_size);
+  }
   constexpr std::size_t kLists = 2;  // heights and colors
   const std::unique_ptr<converters::Team> team = make_mpi_team(kLists);
   try {

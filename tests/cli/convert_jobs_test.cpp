@@ -80,6 +80,17 @@ TEST_F(ConvertJobs, InAnyOrderAndSeveralAtATimeGiveTheBytesOfOneRun) {
   expect_whole();
 }
 
+TEST_F(ConvertJobs, SpreadOverMpiGiveTheBytesOfOneRun) {
+  const std::filesystem::path plugin = std::filesystem::path(GLOBE_PROGRAM).parent_path() / "libglobe_mpi.so";
+  if (std::system("mpirun --version > /dev/null 2>&1") != 0 || !std::filesystem::exists(plugin))
+    GTEST_SKIP() << "SKIPPED: no Open MPI here";
+  std::string line =
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 3 " GLOBE_PROGRAM;
+  for (const std::string& word : command()) line += " '" + word + "'";
+  EXPECT_EQ(std::system((line + " --quiet").c_str()), 0);
+  expect_whole();
+}
+
 TEST_F(ConvertJobs, AConversionGoesOnFromThePartsThatAreDone) {
   for (const char* job : {"0", "7", "14"}) {
     const Outcome one = run_program(command() + Words{"--job", job});
