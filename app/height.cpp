@@ -18,6 +18,8 @@ namespace {
 using globe::planet::Interpolation;
 using globe::planet::Surface;
 
+constexpr const char* kSynthesised = "synthesised";
+
 struct HeightOptions {
   std::string planet;
   std::vector<std::string> points;
@@ -32,7 +34,7 @@ struct Answer {
   double lat_deg, lon_deg;
   int level;
   double height_m;
-  const char* source;             ///< "data" or "synthesised"
+  std::string source;             ///< "data", the name of an inset, or "synthesised"
   std::optional<double> error_m;  ///< none where the ground is synthesised
   std::string datum;
 };
@@ -66,7 +68,9 @@ struct GroundHeight {
 
 GroundHeight height_of(const Surface& surface, const globe::geo::dvec3& u, int level,
                        const HeightOptions& options) {
-  const auto ground = globe::planet::height_at(surface, u, level, options.interpolation);
+  const bool by_data = !options.level && !options.drawn;
+  const auto ground = by_data ? globe::planet::data_height_at(surface, u, options.interpolation)
+                              : globe::planet::height_at(surface, u, level, options.interpolation);
   if (options.drawn) {
     const double drawn_m = globe::planet::drawn_ground(surface, u, level).height_m;
     return {drawn_m, std::abs(drawn_m - ground.height_m) + 0.5 * ground.spread_m};
@@ -75,25 +79,35 @@ GroundHeight height_of(const Surface& surface, const globe::geo::dvec3& u, int l
   return {ground.height_m, nearest ? ground.spread_m : 0.5 * ground.spread_m};
 }
 
+/// What a height of a level is made of. Finer than the planet's own data, the rim of an inset has a share of
+/// what is synthesised around it.
+std::string source_of(const Surface& surface, const globe::planet::DataSource& data, int level,
+                      const HeightOptions& options) {
+  const bool by_data = !options.level && !options.drawn;
+  const bool measured = by_data || level <= surface.data_level() || (level <= data.level && data.inset_alone);
+  if (!surface.has_data() || !measured) return kSynthesised;
+  return data.inset.empty() ? "data" : std::string(data.inset);
+}
+
 int run(const HeightOptions& options) {
   const auto surface = open_planet(options.planet);
   require_heights(*surface, options.planet);
   warn_of_unknown_datum(*surface, options.planet);
-  const int level = options.level.value_or(surface->data_level());
-  const bool measured = surface->has_data() && level <= surface->data_level();
   const auto& precision = options.records.precision;
   const auto answer = [&](const std::string& record) {
     const auto at = parse_point(record).position;
     const auto u = globe::geo::normal_from_degrees(at.lat_deg, at.lon_deg);
+    const globe::planet::DataSource data = surface->data_at(u);
+    const int level = options.level.value_or(data.level);
     const GroundHeight height = height_of(*surface, u, level, options);
     Answer result{shown(at.lat_deg, precision),
                   shown_longitude(at.lon_deg, precision),
                   level,
                   height.height_m,
-                  measured ? "data" : "synthesised",
+                  source_of(*surface, data, level, options),
                   std::nullopt,
                   surface->info().vertical_datum};
-    if (measured) result.error_m = height.error_m;
+    if (result.source != kSynthesised) result.error_m = height.error_m;
     if (options.records.json) return json_line(result, precision);
     return options.records.csv ? fields(result, precision, ',', "") : fields(result, precision, ' ', "-");
   };
@@ -111,8 +125,10 @@ void add_height(CLI::App& program, int& exit_status) {
   command->add_option("POINT", options->points,
                       "\"LAT LON\" or LAT,LON each; without points: one a line from standard input");
   command
-      ->add_option("--level", options->level,
-                   "HTM level (default: the data at their finest; procedural: the level of its own relief)")
+      ->add_option(
+          "--level", options->level,
+          "HTM level (default: the data at their finest, those of insets in insets; procedural: the level of "
+          "its own relief)")
       ->check(CLI::Range(0, globe::htm::kMaxLevel));
   CLI::Option* interpolation = add_interpolation_option(*command, options->interpolation);
   command
@@ -122,11 +138,12 @@ void add_height(CLI::App& program, int& exit_status) {
   add_record_options(*command, options->records);
   command->footer(
       "Text: LAT LON LEVEL HEIGHT_M SOURCE ERROR_M DATUM.  An ALT is not looked at.\n"
-      "SOURCE is data, or synthesised: levels finer than the data add made-up detail, and procedural has no\n"
-      "data at all.  ERROR_M tells how well the samples bound the ground between them: half the difference\n"
-      "between the highest and the lowest corner of the trixel (all of it for nearest); with --drawn\n"
-      "also how far the flat trixel lies from the ground between its corners.  It says nothing of errors in\n"
-      "the map itself; - (null) where the ground is synthesised.\n"
+      "SOURCE is data, the name of an inset (also in its rim, where it is blended with the data around it), or\n"
+      "synthesised: levels finer than the data add made-up detail, and procedural has no data at all.\n"
+      "ERROR_M tells how well the samples bound the ground between them: half the difference between the\n"
+      "highest and the lowest corner of the trixel (all of it for nearest); with --drawn also how far the flat\n"
+      "trixel lies from the ground between its corners.  It says nothing of errors in the map itself; - (null)\n"
+      "where the ground is synthesised.\n"
       "Example: globe height my-planet --json \"27.99 86.92\"");
   command->callback([options, &exit_status] { exit_status = run(*options); });
 }

@@ -39,10 +39,11 @@ struct Place {
 };
 
 /// @param surface  null without a PLANET
-Place place_of(const Point& point, int level, const globe::planet::Surface* surface,
+Place place_of(const Point& point, std::optional<int> wanted, const globe::planet::Surface* surface,
                Interpolation interpolation, const std::optional<int>& precision) {
   const auto& at = point.position;
   const auto u = globe::geo::normal_from_degrees(at.lat_deg, at.lon_deg);
+  const int level = wanted ? *wanted : surface ? surface->data_at(u).level : kDefaultLevel;
   const auto trixel = globe::htm::trixel_at(u, level);
   const auto& ellipsoid = surface ? surface->ellipsoid() : globe::geo::kWgs84;
   Place place{shown(at.lat_deg, precision),
@@ -52,7 +53,7 @@ Place place_of(const Point& point, int level, const globe::planet::Surface* surf
               std::nullopt,
               globe::geo::ecef_from_normal(ellipsoid, u, at.h_m)};
   if (surface) {
-    place.height_m = height_at(*surface, u, surface->data_level(), interpolation).height_m;
+    place.height_m = data_height_at(*surface, u, interpolation).height_m;
   }
   return place;
 }
@@ -124,11 +125,10 @@ int run(Lookup lookup) {
                             "give a PLANET before the points");
   }
   const RecordOptions& records = lookup.records;
-  const int level = lookup.level.value_or(surface ? surface->data_level() : kDefaultLevel);
   const auto& ellipsoid = surface ? surface->ellipsoid() : globe::geo::kWgs84;
   const auto answer = [&](const std::string& record) {
     const Point point = parse_point(record);
-    const Place place = place_of(point, level, surface.get(), lookup.interpolation, records.precision);
+    const Place place = place_of(point, lookup.level, surface.get(), lookup.interpolation, records.precision);
     if (records.json) return json_line(place, grid_names(point, ellipsoid), records.precision);
     if (records.csv) return csv_line(place, grid_names(point, ellipsoid), records.precision);
     return text_line(place, records.precision);
@@ -146,7 +146,9 @@ void add_lookup(CLI::App& program, int& exit_status) {
   command->add_option(
       "POINT", lookup->operands,
       "[PLANET] and points, \"LAT LON\" or LAT,LON each; without points: one a line from standard input");
-  command->add_option("--level", lookup->level, "HTM level (default: the planet's, else 20)")
+  command
+      ->add_option("--level", lookup->level,
+                   "HTM level (default: that of the planet's finest data at the point, else 20)")
       ->check(CLI::Range(0, globe::htm::kMaxLevel));
   CLI::Option* interpolation = add_interpolation_option(*command, lookup->interpolation);
   add_record_options(*command, lookup->records);

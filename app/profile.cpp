@@ -71,14 +71,16 @@ std::string place_text(const Geodetic& place) {
 }
 
 ProfilePlot plot_of(const std::vector<ProfileSample>& samples, const ProfileOptions& options,
-                    const Surface& surface, int level) {
+                    const Surface& surface, const globe::planet::DataLevels& levels) {
   const std::string places = place_text(samples.front().place) + "  to  " + place_text(samples.back().place);
   const double km = samples.back().distance_m / 1000.0;
   ProfilePlot plot;
   plot.title = options.title.empty() ? places : options.title;
   if (!options.title.empty()) plot.subtitle = places + " · ";
   plot.subtitle += number_text(km, km >= 100.0 ? 0 : 2) + " km · " + surface.info().name + ", level " +
-                   std::to_string(level) + " · datum: " + surface.info().vertical_datum;
+                   std::to_string(levels.coarsest) +
+                   (levels.finest > levels.coarsest ? " to " + std::to_string(levels.finest) : "") +
+                   " · datum: " + surface.info().vertical_datum;
   plot.sea = surface.has_sea();
   return plot;
 }
@@ -92,15 +94,18 @@ void run(const ProfileOptions& options) {
   const auto surface = open_planet(options.planet);
   require_heights(*surface, options.planet);
   warn_of_unknown_datum(*surface, options.planet);
-  const int level = options.level.value_or(surface->data_level());
-  const std::size_t count = options.count.value_or(globe::planet::profile_count(*surface, a, b, level));
-  const auto samples = globe::planet::profile(*surface, a, b, count, level, options.interpolation);
+  const globe::planet::DataLevels levels = options.level
+                                               ? globe::planet::DataLevels{*options.level, *options.level}
+                                               : globe::planet::data_levels_along(*surface, a, b);
+  const std::size_t count =
+      options.count.value_or(globe::planet::profile_count(*surface, a, b, levels.finest));
+  const auto samples = globe::planet::profile(*surface, a, b, count, options.level, options.interpolation);
   if (!options.output.empty()) {
     if (samples.back().distance_m == 0.0) {
       throw globe::UsageError(options.output, "A and B are the same place, there is nothing to draw",
                               "give two places");
     }
-    draw_profile(options.output, samples, plot_of(samples, options, *surface, level), options.overwrite);
+    draw_profile(options.output, samples, plot_of(samples, options, *surface, levels), options.overwrite);
   }
   if (options.output.empty() || options.json || options.csv) write_samples(samples, options);
 }
@@ -119,8 +124,10 @@ void add_profile(CLI::App& program) {
                    "samples, at equal distances, A and B among them (default: two a grid edge, 512 to 65536)")
       ->check(CLI::Range(std::size_t{2}, std::size_t{10000000}));
   command
-      ->add_option("--level", options->level,
-                   "HTM level (default: the data at their finest; procedural: the level of its own relief)")
+      ->add_option(
+          "--level", options->level,
+          "HTM level (default: the data at their finest, those of insets in insets; procedural: the level of "
+          "its own relief)")
       ->check(CLI::Range(0, globe::htm::kMaxLevel));
   add_interpolation_option(*command, options->interpolation);
   CLI::Option* json = command->add_flag("--json", options->json, "one JSON object a sample");

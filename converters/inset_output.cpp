@@ -59,7 +59,8 @@ InsetGrid<float> filtered(const InsetGrid<float>& fine, const InsetGrid<float>& 
     for (int j = block.j0; j <= block.j1; ++j) {
       for (int i = block.i0; i <= block.i1; ++i) {
         const Node node{block.d, coarse.level(), i, j};
-        if (!is_first_name(node)) continue;
+        if (!is_first_name(node) || weight.get(node.d, i << (coarser + 1), j << (coarser + 1)) <= 0.0F)
+          continue;
         double sum = 0, share = 0;
         const auto add = [&](int x, int y, double part) {
           const Node at = globe::planet::fold({block.d, fine.level(), x, y});
@@ -71,7 +72,7 @@ InsetGrid<float> filtered(const InsetGrid<float>& fine, const InsetGrid<float>& 
         };
         add(2 * i, 2 * j, 2.0);
         for (const auto& step : kLatticeSteps) add(2 * i + step.x, 2 * j + step.y, 1.0);
-        if (share > 0.0) coarse.set_all_names(node, static_cast<float>(sum / share));
+        coarse.set_all_names(node, static_cast<float>(sum / share));
       }
     }
   }

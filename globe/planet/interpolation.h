@@ -23,4 +23,8 @@ struct Height {
 /// stencil. On a diamond's edge only nodes of the edge take part: both sides agree there.
 Height height_at(const Surface& surface, const dvec3& u, int level, Interpolation interpolation);
 
+/// The same by the data alone, of the nodes of the finest data there (Surface::data_at): nothing is
+/// synthesised, in the rim of an inset its data and the planet's own are blended.
+Height data_height_at(const Surface& surface, const dvec3& u, Interpolation interpolation);
+
 }  // namespace globe::planet

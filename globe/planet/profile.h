@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "globe/planet/interpolation.h"
@@ -17,8 +18,15 @@ struct ProfileSample {
 
 /// Samples at equal distances along the geodesic of the planet's ellipsoid, the first and the last exactly at
 /// a and b. Which geodesic, where several are shortest: geo/geodesic.h. REQUIRES: count >= 2.
+/// @param level  of the ground; none: the data at their finest, wherever that is (data_height_at)
 std::vector<ProfileSample> profile(const Surface& surface, const geo::Geodetic& a, const geo::Geodetic& b,
-                                   std::size_t count, int level, Interpolation interpolation);
+                                   std::size_t count, std::optional<int> level, Interpolation interpolation);
+
+/// The coarsest and the finest level of the data along a geodesic, by 1024 places of it.
+struct DataLevels {
+  int coarsest = 0, finest = 0;
+};
+DataLevels data_levels_along(const Surface& surface, const geo::Geodetic& a, const geo::Geodetic& b);
 
 /// How many samples show all that a level has: two a grid edge, 512 at least and 65536 at most; 2 where A is
 /// B.
