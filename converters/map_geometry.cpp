@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "converters/number_text.h"
+#include "globe/base/bit_select.h"
 #include "globe/base/error.h"
+#include "globe/geo/arctangent.h"
 
 namespace converters {
 namespace {
@@ -17,8 +19,9 @@ constexpr double kNear = 0.01;  ///< samples: how far files round their extents
 constexpr double kFar = 1e8;    ///< samples: beyond this nothing is near a raster
 
 SampleCoordinate split(double value) {
-  const double whole = std::floor(value);
-  return {static_cast<int>(whole), value - whole};
+  int whole = static_cast<int>(value);
+  if (whole > value) --whole;
+  return {whole, value - whole};
 }
 
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
@@ -60,16 +63,40 @@ SamplePlace place_of(const MapGeometry& geometry, const SamplePoint& point) {
   return {split((point.x - middle) / geometry.factor), split((point.y - middle) / geometry.factor)};
 }
 
-SamplePlace equirectangular_place(const MapGeometry& geometry, const globe::geo::dvec3& u) {
-  const double r = std::sqrt(u.x * u.x + u.y * u.y);
+constexpr std::size_t kAtOnce = 1024;
+
+/// The largest whole number not above a value below 2^51.
+GLOBE_INLINE double floor_of(double value) {
+  constexpr double kToInteger = 0x1.8p52;  // a sum with it is rounded to an integer
+  const double nearest = (value + kToInteger) - kToInteger;
+  return nearest - globe::select(globe::mask_of(nearest > value), 1.0, 0.0);
+}
+
+/// Sample coordinates of at most kAtOnce directions on an equirectangular map.
+GLOBE_FOR_EVERY_VECTOR_WIDTH
+void equirectangular_coordinates(const MapGeometry& geometry, const globe::geo::dvec3* directions,
+                                 std::size_t count, double* x, double* y) {
   const double stretch =
       geometry.latitude == Latitude::kGeocentric ? geometry.one_minus_f * geometry.one_minus_f : 1.0;
-  const double lat = std::atan2(u.z * stretch, r) / kDegree;
-  double east = std::atan2(u.y, u.x) / kDegree - geometry.west_deg;
   // All around: [0, 360). Else the turn that is nearest to the middle of the map.
   const double first = geometry.period > 0 ? 0.0 : 0.5 * (geometry.width - 1) * geometry.step_deg - 180.0;
-  east -= 360.0 * std::floor((east - first) / 360.0);
-  return {split(east / geometry.step_deg), split((geometry.north_deg - lat) / geometry.row_step_deg)};
+  const double west = geometry.west_deg, north = geometry.north_deg;
+  const double step = geometry.step_deg, row_step = geometry.row_step_deg;
+  for (std::size_t k = 0; k < count; ++k) {
+    const globe::geo::dvec3& u = directions[k];
+    const double r = std::sqrt(u.x * u.x + u.y * u.y);
+    double east = globe::geo::arctangent(u.y, u.x) - west;
+    east -= 360.0 * floor_of((east - first) / 360.0);
+    x[k] = east / step;
+    y[k] = (north - globe::geo::arctangent(u.z * stretch, r)) / row_step;
+  }
+}
+
+void find_equirectangular(const MapGeometry& geometry, const globe::geo::dvec3* directions, std::size_t count,
+                          SamplePlace* out) {
+  std::array<double, kAtOnce> x, y;
+  equirectangular_coordinates(geometry, directions, count, x.data(), y.data());
+  for (std::size_t k = 0; k < count; ++k) out[k] = {split(x[k]), split(y[k])};
 }
 
 }  // namespace
@@ -187,14 +214,13 @@ SamplePlace place_of(const MapGeometry& geometry, const globe::geo::dvec3& u) {
 
 void find_places(const MapGeometry& geometry, const globe::geo::dvec3* directions, std::size_t count,
                  SamplePlace* out) {
-  if (!geometry.projection) {
-    for (std::size_t k = 0; k < count; ++k) out[k] = equirectangular_place(geometry, directions[k]);
-    return;
-  }
-  constexpr std::size_t kAtOnce = 1024;
   std::array<SamplePoint, kAtOnce> points;
   for (std::size_t first = 0; first < count; first += kAtOnce) {
     const std::size_t n = std::min(kAtOnce, count - first);
+    if (!geometry.projection) {
+      find_equirectangular(geometry, directions + first, n, out + first);
+      continue;
+    }
     geometry.projection->find(directions + first, n, points.data());
     for (std::size_t k = 0; k < n; ++k) out[first + k] = place_of(geometry, points[k]);
   }

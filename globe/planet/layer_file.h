@@ -12,8 +12,8 @@ namespace globe::planet {
 /// Level k of a diamond as it lies in its file.
 TiffLevel layer_level(int level, int channels, const std::string& storage, int tile_size);
 
-/// Writes the pyramid of one layer and one diamond: a tiled, deflated TIFF whose sub-images are the levels,
-/// finest first. The same samples give the same bytes: no date, host or thread count gets in.
+/// Writes the pyramid of one layer and one diamond: a tiled TIFF (planet/tiff_level.h) whose sub-images are
+/// the levels, finest first. The same samples give the same bytes: no date, host or thread count gets in.
 class LayerFileWriter {
  public:
   /// `storage` as in LayerInfo. Throws globe::Error when the file cannot be made.

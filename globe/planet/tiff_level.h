@@ -11,8 +11,8 @@ struct tiff;
 
 namespace globe::planet {
 
-/// How one level of a layer lies in a TIFF: tiles of tile_size x tile_size samples, deflated; those at the
-/// right and lower rims hold whole tiles too.
+/// How one level of a layer lies in a TIFF: tiles of tile_size x tile_size samples, packed by Zstandard;
+/// those at the right and lower rims hold whole tiles too.
 struct TiffLevel {
   int width = 0;   ///< samples
   int height = 0;  ///< likewise
