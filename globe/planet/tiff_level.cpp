@@ -14,8 +14,8 @@
 namespace globe::planet {
 namespace {
 
-/// Against 4: a quarter to a half of the time saved, heights of the Moon 0.5 % larger, of ETOPO resampled by a
-/// factor of 7 9 %, colors 6 %. (Zstandard is quicker still, but its tiles have no checksum: a flipped bit
+/// Against 4: a quarter to a half of the time saved, heights of the Moon 0.5 % larger, of ETOPO resampled by
+/// a factor of 7 9 %, colors 6 %. (Zstandard is quicker still, but its tiles have no checksum: a flipped bit
 /// would be drawn.)
 constexpr int kDeflateLevel = 1;
 

@@ -11,7 +11,7 @@ struct tiff;
 
 namespace globe::planet {
 
-/// How one level of a layer lies in a TIFF: tiles of tile_size x tile_size samples, packed by Zstandard;
+/// How one level of a layer lies in a TIFF: tiles of tile_size x tile_size samples, deflated;
 /// those at the right and lower rims hold whole tiles too.
 struct TiffLevel {
   int width = 0;   ///< samples
