@@ -170,7 +170,7 @@ Benchmark convert_bilinear() {
   output->write_image(OIIO::TypeDesc::FLOAT, heights.data());
   output->close();
   converters::ConvertOptions options;
-  options.heights = converters::MapInput{*folder / "map.tif", {}, {}};
+  options.heights = {converters::MapInput{*folder / "map.tif", {}, {}}};
   options.planet = *folder / "planet";
   options.level = 10;
   options.filter = converters::Filter::kBilinear;

@@ -36,8 +36,9 @@ BlockSampler::BlockSampler(const MapStack::Entry& entry, const NodeBlock& nodes,
       nodes_(nodes),
       part_(part),
       places_(part.size()) {
+  const double reach = filter_ == Filter::kArea ? footprint_reach(nodes.level()) : 0.0;
   for (int j = part.j0; j < part.j0 + part.nj; ++j)
-    find_places(geometry_, &nodes.at(part.i0, j), static_cast<std::size_t>(part.ni),
+    find_places(geometry_, &nodes.at(part.i0, j), static_cast<std::size_t>(part.ni), reach,
                 places_.data() + part.index(part.i0, j));
   const bool anywhere =
       std::any_of(places_.begin(), places_.end(), [](const SamplePlace& at) { return at.is_somewhere(); });
@@ -88,7 +89,7 @@ void BlockSampler::find_footprints() {
     }
   }
   centres_.resize(centres.size());
-  find_places(geometry_, centres.data(), centres.size(), centres_.data());
+  find_places(geometry_, centres.data(), centres.size(), footprint_reach(nodes_.level()), centres_.data());
   footprints_.resize(places_.size());
   for (int j = part_.j0; j < part_.j0 + part_.nj; ++j) {
     for (int i = part_.i0; i < part_.i0 + part_.ni; ++i) {

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "converters/body.h"
+#include "converters/geoid.h"
 #include "converters/layer_output.h"
 #include "converters/map_plan.h"
 #include "converters/number_text.h"
@@ -38,13 +39,13 @@ std::size_t default_memory() {
          static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) / 2;
 }
 
-/// A map and the jobs that convert it.
+/// A layer's maps and the jobs that convert them.
 struct Task {
-  PlannedMap map;
+  PlannedLayer layer;
   std::vector<Job> jobs;
 
-  explicit Task(PlannedMap planned) : map(std::move(planned)), jobs(jobs_of(map.rule.kind, map.level)) {}
-  std::string what() const { return map.rule.kind == MapKind::kHeights ? "heights" : "color"; }
+  explicit Task(PlannedLayer planned) : layer(std::move(planned)), jobs(jobs_of(layer.kind, layer.level)) {}
+  std::string what() const { return layer.kind == MapKind::kHeights ? "heights" : "color"; }
 };
 
 Ellipsoid ellipsoid_of(const ConvertOptions& options) {
@@ -63,15 +64,12 @@ std::vector<Task> plan(const ConvertOptions& options, const Report& report) {
               (options.ellipsoid ? "" : " (wgs84 assumed; --ellipsoid)"));
   const int threads = threads_of(options);
   std::vector<Task> tasks;
-  if (options.heights) {
-    tasks.emplace_back(
-        plan_map(*options.heights, MapKind::kHeights, options.level, options, ellipsoid, threads, report));
-  }
-  if (options.colors) {
-    tasks.emplace_back(plan_map(*options.colors, MapKind::kColors,
-                                options.heights ? std::nullopt : options.level, options, ellipsoid, threads,
-                                report));
-  }
+  const auto add = [&](const std::vector<MapInput>& inputs, MapKind kind, std::optional<int> level) {
+    if (!inputs.empty())
+      tasks.emplace_back(plan_layer(inputs, kind, level, options, ellipsoid, threads, report));
+  };
+  add(options.heights, MapKind::kHeights, options.level);
+  add(options.colors, MapKind::kColors, options.heights.empty() ? options.level : std::nullopt);
   return tasks;
 }
 
@@ -131,14 +129,15 @@ class Conversion {
     file.info.name = name.filename().string();
     file.info.body = body_of(ellipsoid_);
     file.info.ellipsoid = ellipsoid_;
-    file.info.vertical_datum = "unknown";
+    file.info.vertical_datum = vertical_datum();
     file.info.tile_size = kTileSize;
     file.info.credits = options_.credits;
     for (const Task& task : tasks_) {
       std::vector<globe::planet::StoredLayer> layers = write(task);
       file.layers.insert(file.layers.end(), std::make_move_iterator(layers.begin()),
                          std::make_move_iterator(layers.end()));
-      file.info.credits.push_back(credit_of(task.map));
+      const std::vector<std::string> credits = credits_of(task.layer);
+      file.info.credits.insert(file.info.credits.end(), credits.begin(), credits.end());
     }
     file.info.credits.push_back("converted by " + options_.program_version);
     globe::planet::write_planet_file(output_.path(), std::move(file));
@@ -154,12 +153,17 @@ class Conversion {
     std::size_t first = team.claim(list);
     while (first < task.jobs.size() && output_.done(task.jobs[first])) first = team.claim(list);
     if (first >= task.jobs.size()) return;
-    MapStack maps;
-    maps.add(std::make_shared<SourceMap>(load_map(task.map, budget_, report_)), task.map.filter);
+    const bool heights = task.layer.kind == MapKind::kHeights;
+    const std::unique_ptr<const Geoid> geoid = heights ? open_geoid() : nullptr;
+    const MapStack maps = load_layer(task.layer, budget_, report_);
     std::atomic<double> done = static_cast<double>(std::count_if(
         task.jobs.begin(), task.jobs.end(), [&](const Job& job) { return output_.done(job).has_value(); }));
     const NodeSource nodes = [&](const NodeRect& rect, const RowSink& sink) {
-      sample_nodes(maps, rect, Gaps::kFill, sink, [](double) {});
+      if (geoid) {
+        sample_above_ellipsoid(maps, *geoid, rect, sink);
+      } else {
+        sample_nodes(maps, rect, options_.voids, sink, [](double) {});
+      }
     };
     const auto run = [&](const Job& job) {
       double before = 0;
@@ -186,6 +190,33 @@ class Conversion {
     });
   }
 
+  std::unique_ptr<const Geoid> open_geoid() {
+    if (options_.geoid.empty()) return nullptr;
+    return converters::open_geoid(options_.geoid, {ellipsoid_, options_.latitude}, budget_);
+  }
+
+  void sample_above_ellipsoid(const MapStack& maps, const Geoid& geoid, const NodeRect& rect,
+                              const RowSink& sink) const {
+    std::vector<float> heights(static_cast<std::size_t>(rect.ni) * static_cast<std::size_t>(rect.nj));
+    std::vector<float> weights(heights.size());
+    sample_rect(maps, rect, options_.voids, heights.data(), weights.data());
+    geoid.add(rect, heights.data());
+    for (int j = 0; j < rect.nj; ++j) {
+      const auto first = static_cast<std::size_t>(j) * static_cast<std::size_t>(rect.ni);
+      sink(rect.i0, rect.j0 + j, rect.ni, heights.data() + first, weights.data() + first);
+    }
+  }
+
+  /// By name, by what --geoid makes of it, or as the files of the heights name it.
+  std::string vertical_datum() const {
+    if (options_.datum) return *options_.datum;
+    if (!options_.geoid.empty()) return "ellipsoid";
+    for (const Task& task : tasks_) {
+      if (task.layer.kind == MapKind::kHeights) return datum_of(task.layer).value_or("unknown");
+    }
+    return "unknown";
+  }
+
   Range range_of(const Task& task) const {
     Range all = output_.done(task.jobs.front()).value();
     for (const Job& job : task.jobs) {
@@ -199,10 +230,10 @@ class Conversion {
     std::vector<globe::planet::StoredLayer> stored;
     arena_.execute([&] {
       std::vector<LayerOutput> layers;
-      if (task.map.rule.kind == MapKind::kHeights) {
-        layers = height_layers(task.map.level, range_of(task), output_.parts(), ellipsoid_, budget_);
+      if (task.layer.kind == MapKind::kHeights) {
+        layers = height_layers(task.layer.level, range_of(task), output_.parts(), ellipsoid_, budget_);
       } else {
-        layers.push_back(color_layer(task.map.level, output_.parts(), budget_));
+        layers.push_back(color_layer(task.layer.level, output_.parts(), budget_));
       }
       stored = write_layers(layers, output_.path(), report_.stage("writing " + task.what()));
     });

@@ -7,32 +7,24 @@
 #include <vector>
 
 #include "converters/job.h"
-#include "converters/map_geometry.h"
+#include "converters/map_input.h"
 #include "converters/sampler.h"
 #include "converters/team.h"
 #include "globe/geo/ellipsoid.h"
 
 namespace converters {
 
-/// A map to convert: a file and what is known of its frame. What is not given is taken from the file, else
-/// assumed (longitudes -180 to 180, areas) and said so.
-struct MapInput {
-  std::filesystem::path path;
-  std::optional<Extent> extent;
-  std::optional<Registration> registration;
-};
-
 struct ConvertOptions {
-  std::optional<MapInput> heights;
-  std::optional<MapInput> colors;
+  std::vector<MapInput> heights;  ///< later ones lie over earlier ones
+  std::vector<MapInput> colors;   ///< likewise
   std::filesystem::path planet;
   std::optional<int> level;      ///< of the heights; of the colors when there are no heights
   std::optional<Filter> filter;  ///< default: area where the map is finer than the grid, else bilinear
   std::optional<globe::geo::Ellipsoid> ellipsoid;
   Latitude latitude = Latitude::kGeodetic;
-  double scale = 1;  ///< metres = raw * scale + offset
-  double offset = 0;
-  std::optional<double> nodata;
+  Gaps voids = Gaps::kFill;          ///< what the voids of maps get that no earlier map has values for
+  std::string geoid;                 ///< grid of geoid heights to add (geoid.h); "": none
+  std::optional<std::string> datum;  ///< vertical datum by name
   std::vector<std::string> credits;
   std::size_t memory_bytes =
       0;            ///< cap on the program's memory, 0: half the machine's; more goes to scratch on disk
@@ -48,10 +40,7 @@ struct ConvertListener {
   std::function<void(const std::string& stage, double fraction)> progress;
 };
 
-/// Smallest level whose nodes are no farther apart than the map's samples: 2^level >= samples in 90 degrees.
-int default_level(const MapGeometry& geometry);
-
-/// Converts maps of a whole planet to a planet folder. The same inputs and options give the same bytes,
+/// Converts maps to a planet folder. The same inputs and options give the same bytes,
 /// whatever the threads, the memory and the way the work was shared. Throws globe::Error; what is done by
 /// then stays in PLANET.partial, and the same call goes on from there.
 void convert(const ConvertOptions& options, const ConvertListener& listener);

@@ -76,6 +76,8 @@ double Footprint::max_y() const {
       ->y;
 }
 
+double footprint_reach(int level) { return std::numbers::pi / globe::planet::nodes_per_side(level); }
+
 dvec3 trixel_centre(const dvec3& a, const dvec3& b, const dvec3& c) { return glm::normalize(a + b + c); }
 
 Footprint make_footprint(const MapGeometry& geometry, const SamplePlace& node,
@@ -97,6 +99,10 @@ Footprint make_footprint(const MapGeometry& geometry, const SamplePlace& node,
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const Footprint::Corner& opposite =
         corner[(k + static_cast<std::size_t>(count / 2)) % static_cast<std::size_t>(count)];
+    // Where a projection is cut or has a singular point, corners are no longer around the node.
+    if (geometry.projection && std::hypot(corner[k].x + opposite.x, corner[k].y + opposite.y) >
+                                   0.75 * std::hypot(corner[k].x - opposite.x, corner[k].y - opposite.y))
+      return {};
     footprint.corner[k] = {node.x.fraction + 0.5 * (corner[k].x - opposite.x),
                            node.y.whole + (node.y.fraction + 0.5 * (corner[k].y - opposite.y))};
   }
@@ -108,13 +114,17 @@ Footprint footprint_of(const MapGeometry& geometry, const Node& node) {
   const dvec3 u = node_direction(name);
   std::array<dvec3, 6> ring{};
   const int count = ring_of(name, ring);
-  std::array<SamplePlace, 6> centres{};
+  std::array<dvec3, 7> directions{};
   for (int k = 0; k < count; ++k) {
     const dvec3& next = ring[static_cast<std::size_t>((k + 1) % count)];
-    centres[static_cast<std::size_t>(k)] =
-        place_of(geometry, trixel_centre(u, ring[static_cast<std::size_t>(k)], next));
+    directions[static_cast<std::size_t>(k)] = trixel_centre(u, ring[static_cast<std::size_t>(k)], next);
   }
-  return make_footprint(geometry, place_of(geometry, u), centres, count);
+  directions[6] = u;
+  std::array<SamplePlace, 7> places{};
+  find_places(geometry, directions.data(), directions.size(), footprint_reach(node.level), places.data());
+  std::array<SamplePlace, 6> centres{};
+  std::copy_n(places.begin(), centres.size(), centres.begin());
+  return make_footprint(geometry, places[6], centres, count);
 }
 
 double cap_rim(const MapGeometry& geometry, int level, bool north) {

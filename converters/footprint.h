@@ -30,6 +30,9 @@ struct Footprint {
   double max_y() const;
 };
 
+/// How far from a node its footprint may reach, radians.
+double footprint_reach(int level);
+
 /// Footprint of a node that is not a pole. Depends on the vertex alone, not on the diamond that names it.
 Footprint footprint_of(const MapGeometry& geometry, const globe::planet::Node& node);
 

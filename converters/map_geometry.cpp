@@ -208,12 +208,12 @@ MapGeometry reduced(const MapGeometry& geometry, int factor) {
 
 SamplePlace place_of(const MapGeometry& geometry, const globe::geo::dvec3& u) {
   SamplePlace place;
-  find_places(geometry, &u, 1, &place);
+  find_places(geometry, &u, 1, std::numbers::pi, &place);
   return place;
 }
 
 void find_places(const MapGeometry& geometry, const globe::geo::dvec3* directions, std::size_t count,
-                 SamplePlace* out) {
+                 double reach, SamplePlace* out) {
   std::array<SamplePoint, kAtOnce> points;
   for (std::size_t first = 0; first < count; first += kAtOnce) {
     const std::size_t n = std::min(kAtOnce, count - first);
@@ -221,7 +221,7 @@ void find_places(const MapGeometry& geometry, const globe::geo::dvec3* direction
       find_equirectangular(geometry, directions + first, n, out + first);
       continue;
     }
-    geometry.projection->find(directions + first, n, points.data());
+    geometry.projection->find(directions + first, n, reach, points.data());
     for (std::size_t k = 0; k < n; ++k) out[first + k] = place_of(geometry, points[k]);
   }
 }

@@ -78,9 +78,9 @@ struct SamplePlace {
 };
 SamplePlace place_of(const MapGeometry& geometry, const globe::geo::dvec3& u);
 
-/// The same for many.
+/// The same for many. Those that are off the map by more than `reach` radians need not be found.
 void find_places(const MapGeometry& geometry, const globe::geo::dvec3* directions, std::size_t count,
-                 SamplePlace* out);
+                 double reach, SamplePlace* out);
 
 /// Whether a place lies on the map: no farther than half a sample from its outermost ones.
 bool is_on(const MapGeometry& geometry, const SamplePlace& place);

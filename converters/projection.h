@@ -24,8 +24,10 @@ class Projection {
  public:
   virtual ~Projection() = default;
 
-  /// Sample coordinates of geodetic normals, SamplePoint::nowhere() for those far off the raster.
-  virtual void find(const globe::geo::dvec3* directions, std::size_t count, SamplePoint* out) const = 0;
+  /// Sample coordinates of geodetic normals. SamplePoint::nowhere() for those that are off the raster by more
+  /// than `reach` radians and some samples, and where the projection leads nowhere.
+  virtual void find(const globe::geo::dvec3* directions, std::size_t count, double reach,
+                    SamplePoint* out) const = 0;
 
   /// Samples in 90 degrees of a great circle at the raster's middle, along the denser axis.
   virtual double samples_per_quadrant() const = 0;

@@ -11,9 +11,6 @@
 namespace converters {
 namespace {
 
-/// Nothing this size is a map of a planet, and a crafted header must not make us ask for the memory.
-constexpr int kMaxSide = 1 << 20;
-
 SampleType sample_type(const OIIO::TypeDesc& type) {
   switch (type.basetype) {
     case OIIO::TypeDesc::UINT8:

@@ -33,8 +33,15 @@ struct RasterInfo {
   bool linear_light = false;     ///< of a picture: samples are linear, not sRGB
   double white = 0;              ///< of a picture: the brightest number; 0: of the type
   bool has_mask = false;         ///< the last channel is 0 where the others are void
-  std::string description;       ///< what the file says of itself
+  double scale = 1;              ///< of heights: raw * scale + offset are what the file means, in `unit`
+  double offset = 0;
+  std::string unit;            ///< as the file spells it; "" when it does not say
+  std::string vertical_datum;  ///< likewise
+  std::string description;     ///< what the file says of itself
 };
+
+/// Nothing this large a side is a map of a planet, and a crafted header must not make us ask for the memory.
+inline constexpr int kMaxSide = 1 << 20;
 
 /// A raster that is read once, from its first row to its last.
 class RasterSource {

@@ -48,7 +48,7 @@ std::shared_ptr<const views::Surface> water_planet(const tests::TemporaryFolder&
   EXPECT_TRUE(output && output->open(map, OIIO::ImageSpec(32, 16, 1, OIIO::TypeDesc::FLOAT)) &&
               output->write_image(OIIO::TypeDesc::FLOAT, depth.data()) && output->close());
   converters::ConvertOptions options;
-  options.heights = converters::MapInput{map, {}, {}};
+  options.heights = {converters::MapInput{map, {}, {}}};
   options.planet = folder / "planet";
   converters::convert(options, {});
   return views::Surface::from_dataset(std::make_shared<const globe::planet::Dataset>(

@@ -54,8 +54,8 @@ ConvertOptions small_maps(const TemporaryFolder& folder) {
     return static_cast<std::uint8_t>((x * 5 + y * 3 + c * 80) % 256);
   });
   ConvertOptions options;
-  options.heights = MapInput{folder / "heights.tif", {}, {}};
-  options.colors = MapInput{folder / "colors.png", {}, {}};
+  options.heights = {MapInput{folder / "heights.tif", {}, {}}};
+  options.colors = {MapInput{folder / "colors.png", {}, {}}};
   options.planet = folder / "planet";
   options.program_version = "globe test";
   return options;
@@ -133,7 +133,7 @@ TEST(Convert, RefusesWhatItCannotUseAndLeavesNothingBehind) {
     return "no error";
   };
   ConvertOptions options = good;
-  options.heights->path = folder / "absent.tif";
+  options.heights[0].path = folder / "absent.tif";
   EXPECT_NE(message(options).find("no such file"), std::string::npos);
 
   options = good;
@@ -161,7 +161,7 @@ TEST(Convert, WarnsOfAnotherBodyAndOfVoids) {
   write_map<std::int16_t>(folder / "lunar.tif", 64, 1,
                           [](int x, int, int) { return static_cast<std::int16_t>(x < 16 ? -32768 : x); });
   ConvertOptions options;
-  options.heights = MapInput{folder / "lunar.tif", {}, {}};
+  options.heights = {MapInput{folder / "lunar.tif", {}, {}}};
   options.planet = folder / "planet";
   std::string warnings;
   ConvertListener listener;
@@ -214,8 +214,8 @@ TEST(ConvertRealMaps, KeepsTheSpotValuesOfEarth) {
     GTEST_SKIP() << "SKIPPED: no sample data in " << data;
   const TemporaryFolder folder;
   ConvertOptions options;
-  options.heights = MapInput{data / "earth_etopo20_f32.tif", {}, {}};
-  options.colors = MapInput{data / "earth_colour_bluemarble_200411_topo_bathy_5400x2700.jpg", {}, {}};
+  options.heights = {MapInput{data / "earth_etopo20_f32.tif", {}, {}}};
+  options.colors = {MapInput{data / "earth_colour_bluemarble_200411_topo_bathy_5400x2700.jpg", {}, {}}};
   options.planet = folder / "earth";
   options.filter = Filter::kNearest;
   convert(options, {});
@@ -242,8 +242,8 @@ TEST(ConvertRealMaps, KeepsTheSpotValuesOfTheMoon) {
     GTEST_SKIP() << "SKIPPED: no sample data in " << data;
   const TemporaryFolder folder;
   ConvertOptions options;
-  options.heights = MapInput{data / "moon_gld100_12.8ppd_int16.tif", Extent{0, -90, 360, 90}, {}};
-  options.colors = MapInput{data / "moon_colour_4096x2048.jpg", {}, {}};
+  options.heights = {MapInput{data / "moon_gld100_12.8ppd_int16.tif", Extent{0, -90, 360, 90}, {}}};
+  options.colors = {MapInput{data / "moon_colour_4096x2048.jpg", {}, {}}};
   options.planet = folder / "moon";
   options.ellipsoid = globe::geo::kMoon;
   options.filter = Filter::kNearest;

@@ -46,7 +46,7 @@ class Stereographic : public Projection {
   Stereographic(const Geodetic& middle, int size, double step_deg)
       : frame_(globe::geo::local_frame(middle.lat_deg, middle.lon_deg)), size_(size), step_deg_(step_deg) {}
 
-  void find(const dvec3* directions, std::size_t count, SamplePoint* out) const override {
+  void find(const dvec3* directions, std::size_t count, double /*reach*/, SamplePoint* out) const override {
     for (std::size_t k = 0; k < count; ++k) {
       const dvec3& u = directions[k];
       const double scale = 2.0 / (1.0 + glm::dot(u, frame_.up)) / kDegree / step_deg_;

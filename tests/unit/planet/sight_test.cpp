@@ -45,7 +45,7 @@ class MapPlanet {
     EXPECT_TRUE(output && output->open(map, OIIO::ImageSpec(width, rows, 1, OIIO::TypeDesc::FLOAT)));
     EXPECT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, samples.data()) && output->close());
     converters::ConvertOptions options;
-    options.heights = {map, std::nullopt, std::nullopt};
+    options.heights = {converters::MapInput{map}};
     options.planet = scratch_ / "planet";
     options.level = level;
     options.filter = converters::Filter::kNearest;
