@@ -2,6 +2,7 @@
 
 #include "app/convert.h"
 #include "app/info.h"
+#include "app/inset.h"
 
 namespace app {
 
@@ -14,6 +15,7 @@ void add_commands(CLI::App& program, int& exit_status) {
   add_export(program);
   add_fly(program);
   add_info(program, exit_status);
+  add_inset(program);
   add_shot(program);
   add_lookup(program, exit_status);
   add_trixel(program, exit_status);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/map_options.h"
 #include "app/mpi_team.h"
 #include "app/parse_options.h"
 #include "app/progress.h"
@@ -31,13 +32,7 @@ struct Arguments {
   std::string filter;
   std::string ellipsoid;
   std::string latitude = "geodetic";
-  std::vector<std::string> extents;
-  std::vector<std::string> registrations;
-  std::vector<std::string> systems;
-  std::vector<std::string> scales;
-  std::vector<std::string> offsets;
-  std::vector<std::string> units;
-  std::vector<std::string> nodata;
+  MapOptions of_maps;
   std::string voids = "fill";
   std::string geoid;
   std::string datum;
@@ -51,53 +46,6 @@ struct Arguments {
   std::string progress;
 };
 
-/// Gives maps what an option says of them: once, it is for all height maps (for all color maps when there are
-/// no height maps); twice, when there are both, for the height maps, then for the color maps; or it comes
-/// once for each map, height maps first. "auto" leaves a map to its file.
-template <typename T, typename Parse>
-void assign(const std::vector<std::string>& texts, const std::string& option,
-            std::optional<T> converters::MapInput::*member, converters::ConvertOptions& options,
-            const Parse& parse) {
-  std::vector<converters::MapInput>& heights = options.heights;
-  std::vector<converters::MapInput>& colors = options.colors;
-  const std::size_t maps = heights.size() + colors.size();
-  const bool by_kind = texts.size() == 2 && !heights.empty() && !colors.empty();
-  if (texts.size() > 1 && texts.size() != maps && !by_kind) {
-    throw globe::UsageError(
-        option, "given " + std::to_string(texts.size()) + " times for " + std::to_string(maps) + " maps",
-        "give it once, once for heights and once for colors, or once for each map, heights first");
-  }
-  const auto set = [&](converters::MapInput& map, const std::string& text) {
-    if (text != "auto") map.*member = parse(text);
-  };
-  for (std::size_t k = 0; k < maps && !texts.empty(); ++k) {
-    const bool is_height = k < heights.size();
-    converters::MapInput& map = is_height ? heights[k] : colors[k - heights.size()];
-    if (texts.size() == maps) {
-      set(map, texts[k]);
-    } else if (texts.size() == 2) {
-      set(map, texts[is_height ? 0 : 1]);
-    } else if (is_height || heights.empty()) {
-      set(map, texts.front());
-    }
-  }
-}
-
-/// Reads the number of an option; `example` is one.
-std::function<double(const std::string&)> number_for(const std::string& option, const std::string& example) {
-  return [=](const std::string& text) {
-    const std::optional<double> number = parse_number(text);
-    if (number) return *number;
-    throw globe::UsageError(option, "'" + text + "' is not a number", "give a value such as " + example);
-  };
-}
-
-std::vector<converters::MapInput> maps_of(const std::vector<std::string>& paths) {
-  std::vector<converters::MapInput> maps;
-  for (const std::string& path : paths) maps.push_back({path});
-  return maps;
-}
-
 converters::ConvertOptions options_from(const Arguments& arguments) {
   static const std::map<std::string, converters::Filter> filters{{"nearest", converters::Filter::kNearest},
                                                                  {"bilinear", converters::Filter::kBilinear},
@@ -109,18 +57,7 @@ converters::ConvertOptions options_from(const Arguments& arguments) {
   if (options.heights.empty() && options.colors.empty()) {
     throw globe::UsageError("convert", "no map given", "give a height map, --color MAP, or both");
   }
-  using converters::MapInput;
-  const auto as_it_is = [](const std::string& text) { return text; };
-  assign(arguments.extents, "--extent", &MapInput::extent, options, parse_extent);
-  assign(arguments.registrations, "--registration", &MapInput::registration, options,
-         [](const std::string& text) {
-           return text == "area" ? converters::Registration::kArea : converters::Registration::kPoint;
-         });
-  assign(arguments.systems, "--crs", &MapInput::crs, options, as_it_is);
-  assign(arguments.units, "--units", &MapInput::unit, options, as_it_is);
-  assign(arguments.scales, "--scale", &MapInput::scale, options, number_for("--scale", "0.1"));
-  assign(arguments.offsets, "--offset", &MapInput::offset, options, number_for("--offset", "-10000"));
-  assign(arguments.nodata, "--nodata", &MapInput::nodata, options, number_for("--nodata", "-9999 or nan"));
+  apply_map_options(arguments.of_maps, options.heights, options.colors);
   options.planet = arguments.planet;
   if (arguments.level >= 0) options.level = arguments.level;
   if (!arguments.filter.empty()) options.filter = filters.at(arguments.filter);
@@ -201,24 +138,7 @@ void add_convert(CLI::App& program, int& exit_status) {
   command->add_option("--ellipsoid", arguments->ellipsoid, "wgs84, moon, mars or A,F (F also 1/298.257)");
   command->add_option("--latitude", arguments->latitude, "what the map's rows count")
       ->check(CLI::IsMember({"geodetic", "geocentric"}));
-  // What is said of maps, in place of what their files say.
-  const auto of_maps = [&](const char* name, std::vector<std::string>& texts, const std::string& help) {
-    return command->add_option(name, texts, help)
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->delimiter('\0')
-        ->group(
-            "Of maps (once for all height maps, again for color maps; or once for each; auto: as the file "
-            "says)");
-  };
-  of_maps("--extent", arguments->extents, "W,S,E,N in degrees");
-  of_maps("--registration", arguments->registrations, "whether coordinates mean edges or samples")
-      ->check(CLI::IsMember({"area", "point", "auto"}));
-  of_maps("--crs", arguments->systems, "coordinate reference system: EPSG:32610, or a text of PROJ or WKT");
-  of_maps("--nodata", arguments->nodata, "raw value that means no data");
-  of_maps("--scale", arguments->scales, "of heights: raw * scale + offset");
-  of_maps("--offset", arguments->offsets, "in the unit of --units");
-  of_maps("--units", arguments->units, "of heights")->check(CLI::IsMember({"m", "ft", "us-ft", "auto"}));
+  add_map_options(*command, arguments->of_maps);
   command
       ->add_option(
           "--voids", arguments->voids,

@@ -21,7 +21,7 @@ class InsetGrid {
 
   /// @param bounds  where values may be set, at most one block a diamond
   InsetGrid(int level, const std::vector<globe::planet::InsetBlock>& bounds, T elsewhere)
-      : level_(level), elsewhere_(elsewhere) {
+      : level_(level), elsewhere_(elsewhere), bounds_(bounds) {
     for (const globe::planet::InsetBlock& block : bounds) {
       Diamond& diamond = diamonds_[static_cast<std::size_t>(block.d)];
       diamond.ti = block.i0 / kTile;
@@ -33,6 +33,7 @@ class InsetGrid {
   }
 
   int level() const { return level_; }
+  const std::vector<globe::planet::InsetBlock>& bounds() const { return bounds_; }
 
   /// One diamond's node, 0 <= i, j <= 2^level.
   T get(int d, int i, int j) const {
@@ -42,15 +43,12 @@ class InsetGrid {
     return diamond.tiles[at][inside(i, j)];
   }
   T get(const globe::planet::Node& node) const { return get(node.d, node.i, node.j); }
-  /// A node of the lattice continued over the diamond's edges.
-  T beside(int d, int i, int j) const {
-    const int n = globe::planet::nodes_per_side(level_);
-    if (i >= 0 && j >= 0 && i <= n && j <= n) return get(d, i, j);
-    return get(globe::planet::fold({d, level_, i, j}));
-  }
 
-  bool may_set(int d, int i, int j) const {
-    return diamonds_[static_cast<std::size_t>(d)].index(i / kTile, j / kTile) != kNowhere;
+  /// Whether the node's tile has come to be.
+  bool has(const globe::planet::Node& node) const {
+    const Diamond& diamond = diamonds_[static_cast<std::size_t>(node.d)];
+    const std::size_t at = diamond.index(node.i / kTile, node.j / kTile);
+    return at != kNowhere && diamond.tiles[at];
   }
   /// Sets a node in its diamond alone; makes the tile. Not while others use the grid.
   void set(int d, int i, int j, T value) {
@@ -110,21 +108,24 @@ class InsetGrid {
 
   int level_;
   T elsewhere_;
+  std::vector<globe::planet::InsetBlock> bounds_;
   std::array<Diamond, globe::planet::kDiamonds> diamonds_;
 };
 
 inline constexpr std::array<globe::planet::ivec2, 6> kLatticeSteps{
     {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
 
-/// True for the one of a node's names that stands for all of them.
-inline bool is_first_name(const globe::planet::Node& node) {
+/// The one of a node's names that stands for all of them.
+inline globe::planet::Node first_name(const globe::planet::Node& node) {
   const int n = globe::planet::nodes_per_side(node.level);
-  if (node.i > 0 && node.j > 0 && node.i < n && node.j < n) return true;
+  if (node.i > 0 && node.j > 0 && node.i < n && node.j < n) return node;
   const globe::planet::Names all = globe::planet::names(node);
-  return std::all_of(all.node.begin(), all.node.begin() + all.count, [&](const globe::planet::Node& other) {
-    return std::array{node.d, node.i, node.j} <= std::array{other.d, other.i, other.j};
-  });
+  return *std::min_element(all.node.begin(), all.node.begin() + all.count,
+                           [](const globe::planet::Node& a, const globe::planet::Node& b) {
+                             return std::array{a.d, a.i, a.j} < std::array{b.d, b.i, b.j};
+                           });
 }
+inline bool is_first_name(const globe::planet::Node& node) { return first_name(node) == node; }
 
 /// Visits every node of the tiles that have come to be, once for each vertex: visit(node).
 template <typename T, typename Visit>

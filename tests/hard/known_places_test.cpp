@@ -155,7 +155,8 @@ std::filesystem::path write_map(const Map& map, const std::filesystem::path& pat
 std::shared_ptr<const Surface> convert(const Body& body, const std::filesystem::path& map, Filter filter,
                                        const std::filesystem::path& planet) {
   converters::ConvertOptions options;
-  options.heights = {converters::MapInput{map, converters::Extent{body.west_deg, -90, body.west_deg + 360, 90}}};
+  options.heights = {
+      converters::MapInput{map, converters::Extent{body.west_deg, -90, body.west_deg + 360, 90}}};
   options.filter = filter;
   options.level = kLevel;
   options.planet = planet;

@@ -131,7 +131,8 @@ TEST(HardSummit, HighestNodeLiesWithinOnePixelOfTheHighestPixel) {
     if (!std::filesystem::exists(map)) GTEST_SKIP() << "SAMPLE MAP MISSING: " << map;
     const tests::TemporaryFolder folder;
     converters::ConvertOptions options;
-    options.heights = {converters::MapInput{map, converters::Extent{one.west_deg, -90, one.west_deg + 360, 90}}};
+    options.heights = {
+        converters::MapInput{map, converters::Extent{one.west_deg, -90, one.west_deg + 360, 90}}};
     options.filter = one.filter;
     options.level = one.level;
     options.planet = folder / "planet";
