@@ -12,6 +12,7 @@
 
 #include "globe/base/error.h"
 #include "globe/base/pending_file.h"
+#include "globe/planet/inset_stack.h"
 
 namespace converters {
 namespace {
@@ -115,6 +116,23 @@ MapContent content_of(const Surface& surface, const ExportOptions& options) {
   return (picture && has_colors) || !surface.has_heights() ? MapContent::kColors : MapContent::kHeights;
 }
 
+/// The layer's own; for heights in a part of the planet that an inset lies in, the inset's.
+int default_level(const Surface& surface, MapContent content, const Extent& extent) {
+  if (!surface.has_data()) return surface.data_level();
+  if (content == MapContent::kColors) return surface.dataset()->layer("color")->level;
+  int level = surface.data_level();
+  if (surface.insets().empty() || extent == Extent{}) return level;
+  constexpr int kPlaces = 32;  // each way
+  for (int y = 0; y < kPlaces; ++y) {
+    const double lat = extent.south + (extent.north - extent.south) * (y + 0.5) / kPlaces;
+    for (int x = 0; x < kPlaces; ++x) {
+      const double lon = extent.west + (extent.east - extent.west) * (x + 0.5) / kPlaces;
+      level = std::max(level, surface.data_at(globe::geo::normal_from_degrees(lat, lon)).level);
+    }
+  }
+  return level;
+}
+
 Plan plan(const Surface& surface, const ExportOptions& options) {
   const std::string name = surface.info().name;
   Plan plan{};
@@ -124,9 +142,7 @@ Plan plan(const Surface& surface, const ExportOptions& options) {
     throw globe::Error(name, "the planet has no heights", "export --layer color");
   if (!heights && surface.has_data() && !surface.has_colors())
     throw globe::Error(name, "the planet has no colors", "export --layer height");
-  const globe::planet::LayerInfo* layer =
-      surface.dataset() == nullptr ? nullptr : surface.dataset()->layer(heights ? "height" : "color");
-  plan.level = options.level.value_or(layer == nullptr ? surface.data_level() : layer->level);
+  plan.level = options.level ? *options.level : default_level(surface, plan.map.content, options.extent);
   plan.map.window = window_of(options, plan.level);
   const MapWindow& window = plan.map.window;
   const bool coarser = cells_a_pixel(std::max(window.step_x_deg, window.step_y_deg), plan.level) > 1.0 + 1e-9;
@@ -165,6 +181,11 @@ std::string description(const Surface& surface, const Plan& plan) {
                      std::to_string(plan.read_level) + ", filter " + name_of(plan.sampling);
   if (heights) text += "; vertical datum " + surface.info().vertical_datum;
   return text;
+}
+
+HeightKind kind_of(const Plan& plan, const ExportOptions& options) {
+  if (plan.read_level < plan.level) return HeightKind::kFiltered;
+  return options.level ? HeightKind::kSynthesised : HeightKind::kData;
 }
 
 /// The metres that 16 bits span.
@@ -206,7 +227,7 @@ void export_map(const SurfacePointer& surface, const ExportOptions& options,
   globe::PendingFile file(options.output, options.overwrite);
   const std::unique_ptr<MapWriter> writer = make_map_writer(file.temporary(), plan.map, threads);
   const std::unique_ptr<NodeValues> values =
-      heights ? node_heights(surface, plan.read_level, plan.read_level < plan.level)
+      heights ? node_heights(surface, plan.read_level, kind_of(plan, options))
               : node_colors(surface, plan.read_level);
   const MapSampler sampler(*values, plan.sampling, plan.map.window);
   const std::size_t block_bytes = sizeof(float) * static_cast<std::size_t>(writer->block_width()) *

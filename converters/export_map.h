@@ -21,8 +21,8 @@ struct ExportOptions {
   std::optional<MapContent> content;  ///< default: colors for a .png of a planet that has them, else heights
   Extent extent;                      ///< west < east <= west + 360, whatever longitudes
   std::optional<MapSize> size;        ///< default: as many pixels along the equator as the level has cells
-  std::optional<int> level;           ///< default: the data's; finer ones are synthesised
-  std::optional<Sampling> sampling;   ///< default: area where pixels are larger than cells, else linear
+  std::optional<int> level;  ///< default: the data's, in a part of the planet an inset's; finer: synthesised
+  std::optional<Sampling> sampling;  ///< default: area where pixels are larger than cells, else linear
   /// Metres that a 16-bit picture of heights spans; default: the lowest and highest of the planet.
   std::optional<std::pair<double, double>> range;
   std::size_t memory_bytes = 0;  ///< for pixels on the way to the file; 0: as many as keep the threads busy

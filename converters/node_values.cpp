@@ -9,6 +9,7 @@
 #include "converters/srgb.h"
 #include "globe/planet/appearance.h"
 #include "globe/planet/directions.h"
+#include "globe/planet/inset_stack.h"
 
 namespace converters {
 namespace {
@@ -51,7 +52,7 @@ class StoredColors : public NodeValues {
   std::array<float, 256> linear_{};
 };
 
-/// Of the tiles that are made for drawing: for ground that is in no file.
+/// Of the tiles that are made for drawing: for ground that is in no file, or put together from several.
 class MadeValues : public NodeValues {
  public:
   MadeValues(SurfacePointer surface, int level, int channels)
@@ -69,19 +70,58 @@ class MadeValues : public NodeValues {
 
 class MadeHeights : public MadeValues {
  public:
-  MadeHeights(SurfacePointer surface, int level) : MadeValues(std::move(surface), level, 1) {}
+  MadeHeights(SurfacePointer surface, int level, bool filtered)
+      : MadeValues(std::move(surface), level, 1), filtered_(filtered) {}
 
   void read(int d, int i0, int j0, int side, float* out) const override {
     const auto tile = tile_at(d, i0, j0);
+    const auto& heights = filtered_ ? tile->shading_height() : tile->height;
     for (int j = j0; j <= j0 + side; ++j) {
-      for (int i = i0; i <= i0 + side; ++i) *out++ = static_cast<float>(tile->height.at(i, j));
+      for (int i = i0; i <= i0 + side; ++i) *out++ = static_cast<float>(heights.at(i, j));
+    }
+  }
+
+ private:
+  bool filtered_;
+};
+
+/// Data and insets without anything made up.
+class DataHeights : public NodeValues {
+ public:
+  DataHeights(SurfacePointer surface, int level) : NodeValues(level, 1), surface_(std::move(surface)) {}
+
+  void read(int d, int i0, int j0, int side, float* out) const override {
+    for (int j = j0; j <= j0 + side; ++j) {
+      for (int i = i0; i <= i0 + side; ++i)
+        *out++ = static_cast<float>(surface_->data_height({d, level(), i, j}));
+    }
+  }
+
+ private:
+  SurfacePointer surface_;
+};
+
+/// The map's color in the tiles.
+class TileColors : public MadeValues {
+ public:
+  TileColors(SurfacePointer surface, int level) : MadeValues(std::move(surface), level, 3) {}
+
+  void read(int d, int i0, int j0, int side, float* out) const override {
+    using globe::planet::Channel;
+    const auto tile = tile_at(d, i0, j0);
+    for (int j = j0; j <= j0 + side; ++j) {
+      for (int i = i0; i <= i0 + side; ++i) {
+        for (const Channel c : {Channel::kRed, Channel::kGreen, Channel::kBlue})
+          *out++ = std::clamp(tile->value(c, i, j), 0.0F, 1.0F);
+      }
     }
   }
 };
 
-class MadeColors : public MadeValues {
+/// The color of ground that has no map.
+class DrawnColors : public MadeValues {
  public:
-  MadeColors(SurfacePointer surface, int level) : MadeValues(std::move(surface), level, 3) {}
+  DrawnColors(SurfacePointer surface, int level) : MadeValues(std::move(surface), level, 3) {}
 
   void read(int d, int i0, int j0, int side, float* out) const override {
     const auto tile = tile_at(d, i0, j0);
@@ -98,21 +138,23 @@ class MadeColors : public MadeValues {
 
 }  // namespace
 
-std::unique_ptr<NodeValues> node_heights(SurfacePointer surface, int level, bool filtered) {
+std::unique_ptr<NodeValues> node_heights(SurfacePointer surface, int level, HeightKind kind) {
   const Dataset* data = surface->dataset();
-  if (data == nullptr || level > surface->data_level())
-    return std::make_unique<MadeHeights>(std::move(surface), level);
-  const bool has_filtered = data->layer("relief") != nullptr;
-  return std::make_unique<StoredHeights>(std::move(surface), level,
-                                         filtered && has_filtered ? "relief" : "height");
+  const bool stored = data != nullptr && level <= surface->data_level() && surface->insets().empty();
+  if (stored) {
+    const bool filtered = kind == HeightKind::kFiltered && data->layer("relief") != nullptr;
+    return std::make_unique<StoredHeights>(std::move(surface), level, filtered ? "relief" : "height");
+  }
+  if (data != nullptr && kind == HeightKind::kData)
+    return std::make_unique<DataHeights>(std::move(surface), level);
+  return std::make_unique<MadeHeights>(std::move(surface), level, kind == HeightKind::kFiltered);
 }
 
 std::unique_ptr<NodeValues> node_colors(SurfacePointer surface, int level) {
-  const Dataset* data = surface->dataset();
-  const globe::planet::LayerInfo* colors = data == nullptr ? nullptr : data->layer("color");
-  if (colors == nullptr || level > colors->level)
-    return std::make_unique<MadeColors>(std::move(surface), level);
-  return std::make_unique<StoredColors>(std::move(surface), level);
+  if (!surface->has_data()) return std::make_unique<DrawnColors>(std::move(surface), level);
+  if (surface->insets().empty() && level <= surface->dataset()->layer("color")->level)
+    return std::make_unique<StoredColors>(std::move(surface), level);
+  return std::make_unique<TileColors>(std::move(surface), level);
 }
 
 }  // namespace converters

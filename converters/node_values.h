@@ -28,14 +28,20 @@ class NodeValues {
   int channels_;
 };
 
-/// Metres above the vertical datum: the data's, or synthesised where the level is finer than they are.
-/// `filtered` takes those averaged to the level, where the planet has them (the layer "relief").
+/// Which heights of a level.
+enum class HeightKind {
+  kData,         ///< nothing made up: where the level is finer than the data, linear in their trixels
+  kFiltered,     ///< averaged to the level, where the planet has such (the layer "relief")
+  kSynthesised,  ///< with made-up detail where the level is finer than the data
+};
+
+/// Metres above the vertical datum, insets included. The built-in planet is all synthesised.
 /// REQUIRES: surface.has_heights().
 std::unique_ptr<NodeValues> node_heights(std::shared_ptr<const globe::planet::Surface> surface, int level,
-                                         bool filtered);
+                                         HeightKind kind);
 
-/// Three channels of linear light: the color map's, averaged to the level; where the planet has none, or the
-/// level is finer than it, the color that the ground is drawn in.
+/// Three channels of linear light: the color map's, insets included, averaged to the level or, where the
+/// level is finer, smooth between its nodes; of the built-in planet, the color that the ground is drawn in.
 std::unique_ptr<NodeValues> node_colors(std::shared_ptr<const globe::planet::Surface> surface, int level);
 
 }  // namespace converters

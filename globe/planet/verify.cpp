@@ -209,8 +209,11 @@ class Verifier {
       }
       check_subsampling(layer, block, *values);
     });
-    if (static_cast<double>(all.low) != layer.min || static_cast<double>(all.high) != layer.max)
-      findings_.add(layer.name + ": its heights do not span what planet.json says");
+    if (all.low != static_cast<float>(layer.min) || all.high != static_cast<float>(layer.max)) {
+      findings_.add(layer.name + ": its heights span " + std::to_string(all.low) + " to " +
+                    std::to_string(all.high) + " m, planet.json says " + std::to_string(layer.min) + " to " +
+                    std::to_string(layer.max));
+    }
   }
 
   void check_subsampling(const LayerInfo& layer, const Block& block, const Values& fine) const {
