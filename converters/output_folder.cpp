@@ -155,7 +155,7 @@ std::optional<Range> OutputFolder::done(const Job& job) const {
 
 void OutputFolder::mark_done(const Job& job, const Range& range) const {
   char text[64];
-  std::snprintf(text, sizeof text, "%.9g %.9g\n", range.min, range.max);
+  std::snprintf(text, sizeof text, "%.17g %.17g\n", range.min, range.max);
   write_text(mark_path(work_, job), text);
 }
 

@@ -35,7 +35,8 @@ TEST(ConvertCommand, MakesAPlanetThatInfoDescribes) {
       run_program({"convert", (folder / "map.tif").string(), "-o", planet, "--credit", "by hand"});
   EXPECT_EQ(made.status, 0) << made.err;
   EXPECT_EQ(made.out, "");
-  for (const char* part : {"wgs84 assumed", "level 5", "filter bilinear", "longitudes -180 to 180 (assumed"})
+  for (const char* part : {"wgs84 assumed", "level 5", "filter bilinear",
+                           "longitudes -180 to 180, latitudes -90 to 90 (assumed"})
     EXPECT_NE(made.err.find(part), std::string::npos) << part << " in " << made.err;
 
   const Outcome json = run_program({"info", planet, "--json", "--verify"});
@@ -96,7 +97,9 @@ TEST(ConvertCommand, RefusesBadInputsWithOneLine) {
   expect_refusal(convert({map, "--filter", "magic"}), 2, "filter");
   expect_refusal(convert({map, "--level", "99"}), 2, "level");
   expect_refusal(convert({map, "--extent", "0,-90,360"}), 2, "W,S,E,N");
-  expect_refusal(convert({map, "--extent", "0,-90,180,90"}), 1, "not a whole turn");
+  expect_refusal(convert({map, "--extent", "0,-90,180,95"}), 1, "no part of a planet");
+  expect_refusal(convert({map, "--extent", "auto", "--extent", "auto", "--extent", "auto"}), 2,
+                 "3 times for 1 map");
   expect_refusal(convert({map, "--ellipsoid", "pluto"}), 2, "pluto");
   expect_refusal(convert({map, "--ellipsoid", "-5,0"}), 2, "positive");
   expect_refusal(convert({map, "--nodata", "many"}), 2, "not a number");
