@@ -42,6 +42,7 @@ struct Arguments {
   int threads = 0;
   bool list_jobs = false;
   int job = -1;
+  bool as_thesis = false;
   bool overwrite = false;
   bool quiet = false;
   std::string progress;
@@ -93,6 +94,7 @@ converters::ConvertOptions options_from(const Arguments& arguments) {
   if (!arguments.ellipsoid.empty()) options.ellipsoid = parse_ellipsoid(arguments.ellipsoid);
   options.latitude =
       arguments.latitude == "geodetic" ? converters::Latitude::kGeodetic : converters::Latitude::kGeocentric;
+  options.as_thesis = arguments.as_thesis;
   const double unit = arguments.units == "ft" ? kFoot : 1.0;
   options.scale = arguments.scale * unit;
   options.offset = arguments.offset * unit;
@@ -182,6 +184,8 @@ void add_convert(CLI::App& program, int& exit_status) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->check(CLI::IsMember({"area", "point"}));
+  command->add_flag("--as-thesis", arguments->as_thesis,
+                    "take rows for linear in latitude, as the thesis does: up to 1083 km off, to compare");
   command->add_option("--scale", arguments->scale, "height = raw * scale + offset");
   command->add_option("--offset", arguments->offset, "in the unit of --units");
   command->add_option("--units", arguments->units, "of the heights")->check(CLI::IsMember({"m", "ft"}));

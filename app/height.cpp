@@ -138,11 +138,14 @@ void add_height(CLI::App& program, int& exit_status) {
   add_record_options(*command, options->records);
   command->footer(
       "Text: LAT LON LEVEL HEIGHT_M SOURCE ERROR_M DATUM.  An ALT is not looked at.\n"
-      "SOURCE is data, the name of an inset (also in its rim, where it is blended with the data around it), or\n"
+      "SOURCE is data, the name of an inset (also in its rim, where it is blended with the data around it), "
+      "or\n"
       "synthesised: levels finer than the data add made-up detail, and procedural has no data at all.\n"
       "ERROR_M tells how well the samples bound the ground between them: half the difference between the\n"
-      "highest and the lowest corner of the trixel (all of it for nearest); with --drawn also how far the flat\n"
-      "trixel lies from the ground between its corners.  It says nothing of errors in the map itself; - (null)\n"
+      "highest and the lowest corner of the trixel (all of it for nearest); with --drawn also how far the "
+      "flat\n"
+      "trixel lies from the ground between its corners.  It says nothing of errors in the map itself; - "
+      "(null)\n"
       "where the ground is synthesised.\n"
       "Example: globe height my-planet --json \"27.99 86.92\"");
   command->callback([options, &exit_status] { exit_status = run(*options); });

@@ -30,7 +30,8 @@ struct ConvertOptions {
   std::optional<Filter> filter;  ///< default: area where the map is finer than the grid, else bilinear
   std::optional<globe::geo::Ellipsoid> ellipsoid;
   Latitude latitude = Latitude::kGeodetic;
-  double scale = 1;  ///< metres = raw * scale + offset
+  bool as_thesis = false;  ///< rows taken as linear in latitude, for comparison (thesis_mapping.h)
+  double scale = 1;        ///< metres = raw * scale + offset
   double offset = 0;
   std::optional<double> nodata;
   std::vector<std::string> credits;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "converters/number_text.h"
+#include "converters/thesis_mapping.h"
 #include "globe/base/error.h"
 
 namespace converters {
@@ -187,6 +188,11 @@ SamplePlace place_of(const MapGeometry& geometry, const globe::geo::dvec3& u) {
 
 void find_places(const MapGeometry& geometry, const globe::geo::dvec3* directions, std::size_t count,
                  SamplePlace* out) {
+  if (geometry.as_thesis) {
+    for (std::size_t k = 0; k < count; ++k)
+      out[k] = equirectangular_place(geometry, thesis_direction(directions[k]));
+    return;
+  }
   if (!geometry.projection) {
     for (std::size_t k = 0; k < count; ++k) out[k] = equirectangular_place(geometry, directions[k]);
     return;

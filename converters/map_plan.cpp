@@ -58,6 +58,7 @@ PlannedMap plan_map(const MapInput& input, MapKind kind, std::optional<int> leve
   const Registration registration = input.registration.value_or(Registration::kArea);
   map.geometry = whole_planet_geometry(input.path.string(), info.width, info.height, extent, registration,
                                        options.latitude, ellipsoid);
+  map.geometry.as_thesis = options.as_thesis;
   map.rule.kind = kind;
   if (kind == MapKind::kHeights) {
     map.rule.scale = options.scale;
@@ -91,7 +92,8 @@ PlannedMap plan_map(const MapInput& input, MapKind kind, std::optional<int> leve
 std::string credit_of(const PlannedMap& map) {
   const RasterInfo& info = map.raster->info();
   return std::string(map.rule.kind == MapKind::kHeights ? "heights" : "color") + " from " + info.name + " (" +
-         std::to_string(info.width) + "x" + std::to_string(info.height) + "), filter " + name_of(map.filter);
+         std::to_string(info.width) + "x" + std::to_string(info.height) + "), filter " + name_of(map.filter) +
+         (map.geometry.as_thesis ? ", AS THE THESIS HAS IT: up to 9.74 degrees off in latitude" : "");
 }
 
 SourceMap load_map(PlannedMap& map, MemoryBudget& budget, const Report& report) {

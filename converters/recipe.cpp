@@ -42,6 +42,7 @@ std::string recipe_of(const ConvertOptions& options) {
                                return ordered_json{e.a, e.f};
                              })},
       {"latitude", static_cast<int>(options.latitude)},
+      {"as_thesis", options.as_thesis},
       {"scale", options.scale},
       {"offset", options.offset},
       {"nodata", optional(options.nodata, [](double value) { return std::to_string(value); })},
