@@ -41,6 +41,7 @@ struct Arguments {
   int threads = 0;
   bool list_jobs = false;
   int job = -1;
+  bool as_thesis = false;
   bool overwrite = false;
   bool quiet = false;
   std::string progress;
@@ -67,6 +68,7 @@ converters::ConvertOptions options_from(const Arguments& arguments) {
   options.voids = arguments.voids == "fill" ? converters::Gaps::kFill : converters::Gaps::kZero;
   options.geoid = arguments.geoid;
   if (!arguments.datum.empty()) options.datum = arguments.datum;
+  options.as_thesis = arguments.as_thesis;
   options.credits = arguments.credits;
   options.memory_bytes = static_cast<std::size_t>(arguments.memory_mb) << 20;
   options.threads = arguments.threads;
@@ -148,6 +150,8 @@ void add_convert(CLI::App& program, int& exit_status) {
                       "grid of geoid heights to add: heights are then above the ellipsoid. A raster, a .pgm "
                       "of GeographicLib, or an installed one's name (egm96-5)");
   command->add_option("--datum", arguments->datum, "name of the heights' vertical datum");
+  command->add_flag("--as-thesis", arguments->as_thesis,
+                    "take rows for linear in latitude, as the thesis does: up to 1083 km off, to compare");
   command->add_option("--credit", arguments->credits, "a line for the planet's credits")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <thread>
 #include <utility>
 
@@ -20,6 +22,7 @@
 #include "converters/output_folder.h"
 #include "converters/recipe.h"
 #include "converters/report.h"
+#include "converters/thesis_mapping.h"
 #include "globe/base/error.h"
 
 namespace converters {
@@ -62,6 +65,11 @@ std::vector<Task> plan(const ConvertOptions& options, const Report& report) {
   report.note("ellipsoid a = " + number_text(ellipsoid.a) +
               " m, f = " + (ellipsoid.f == 0.0 ? "0" : "1/" + number_text(1.0 / ellipsoid.f)) +
               (options.ellipsoid ? "" : " (wgs84 assumed; --ellipsoid)"));
+  if (options.as_thesis) {
+    const double shift_m = kThesisShift_deg * std::numbers::pi / 180.0 * ellipsoid.mean_radius();
+    report.warning("--as-thesis puts the ground up to " + number_text(std::round(shift_m / 1000.0)) +
+                   " km from where it is; for comparison only");
+  }
   const int threads = threads_of(options);
   std::vector<Task> tasks;
   const auto add = [&](const std::vector<MapInput>& inputs, MapKind kind, std::optional<int> level) {

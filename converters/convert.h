@@ -25,6 +25,7 @@ struct ConvertOptions {
   Gaps voids = Gaps::kFill;          ///< what the voids of maps get that no earlier map has values for
   std::string geoid;                 ///< grid of geoid heights to add (geoid.h); "": none
   std::optional<std::string> datum;  ///< vertical datum by name
+  bool as_thesis = false;            ///< rows taken as linear in latitude, for comparison (thesis_mapping.h)
   std::vector<std::string> credits;
   std::size_t memory_bytes =
       0;            ///< cap on the program's memory, 0: half the machine's; more goes to scratch on disk

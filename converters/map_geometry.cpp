@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "converters/number_text.h"
+#include "converters/thesis_mapping.h"
 #include "globe/base/bit_select.h"
 #include "globe/base/error.h"
 #include "globe/geo/arctangent.h"
@@ -217,6 +218,12 @@ void find_places(const MapGeometry& geometry, const globe::geo::dvec3* direction
   std::array<SamplePoint, kAtOnce> points;
   for (std::size_t first = 0; first < count; first += kAtOnce) {
     const std::size_t n = std::min(kAtOnce, count - first);
+    if (geometry.as_thesis) {
+      std::array<globe::geo::dvec3, kAtOnce> moved;
+      std::transform(directions + first, directions + first + n, moved.begin(), thesis_direction);
+      find_equirectangular(geometry, moved.data(), n, out + first);
+      continue;
+    }
     if (!geometry.projection) {
       find_equirectangular(geometry, directions + first, n, out + first);
       continue;

@@ -35,7 +35,8 @@ struct MapGeometry {
   Latitude latitude = Latitude::kGeodetic;
   double one_minus_f = 1;  ///< b/a of the ellipsoid, for geocentric rows
   std::shared_ptr<const Projection> projection;
-  int factor = 1;  ///< samples of the projection made into one, each way
+  int factor = 1;          ///< samples of the projection made into one, each way
+  bool as_thesis = false;  ///< directions are looked up where the thesis has them (thesis_mapping.h)
 
   bool is_whole_planet() const { return north_shift != kNoPole && south_shift != kNoPole; }
   int columns() const { return period > 0 ? period : width; }

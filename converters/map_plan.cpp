@@ -6,6 +6,7 @@
 #include "converters/body.h"
 #include "converters/coverage.h"
 #include "converters/number_text.h"
+#include "globe/base/error.h"
 #include "globe/planet/grid.h"
 
 namespace converters {
@@ -124,6 +125,18 @@ int reading_factor(const MapGeometry& geometry, Filter filter, int level) {
   return factor;
 }
 
+namespace {
+
+void take_as_thesis(MapGeometry& geometry, const std::string& name) {
+  if (geometry.projection || !geometry.is_whole_planet()) {
+    throw globe::Error(name, "the thesis converts plain maps of the whole planet only",
+                       "leave --as-thesis away");
+  }
+  geometry.as_thesis = true;
+}
+
+}  // namespace
+
 PlannedLayer plan_layer(const std::vector<MapInput>& inputs, MapKind kind, std::optional<int> level,
                         const ConvertOptions& options, const Ellipsoid& ellipsoid, int threads,
                         const Report& report) {
@@ -132,6 +145,7 @@ PlannedLayer plan_layer(const std::vector<MapInput>& inputs, MapKind kind, std::
   for (const MapInput& input : inputs) {
     PlannedMap map;
     map.opened = open(input, kind, options, ellipsoid, threads, report);
+    if (options.as_thesis) take_as_thesis(map.opened.geometry, input.path.string());
     layer.maps.push_back(std::move(map));
   }
   layer.level = level ? *level : level_of(layer.maps, kind, report);
@@ -148,8 +162,10 @@ std::vector<std::string> credits_of(const PlannedLayer& layer) {
   std::vector<std::string> credits;
   for (const PlannedMap& map : layer.maps) {
     const RasterInfo& info = map.opened.raster->info();
-    credits.push_back(what(layer.kind) + " from " + info.name + " (" + size_text(info) + "), filter " +
-                      name_of(map.filter));
+    credits.push_back(
+        what(layer.kind) + " from " + info.name + " (" + size_text(info) + "), filter " +
+        name_of(map.filter) +
+        (map.opened.geometry.as_thesis ? ", AS THE THESIS HAS IT: up to 9.74 degrees off in latitude" : ""));
   }
   return credits;
 }

@@ -56,6 +56,7 @@ std::string recipe_of(const ConvertOptions& options) {
       {"voids", static_cast<int>(options.voids)},
       {"geoid", options.geoid},
       {"datum", optional(options.datum, [](const std::string& name) { return name; })},
+      {"as_thesis", options.as_thesis},
       {"credits", options.credits}};
   return recipe.dump(2) + "\n";
 }

@@ -53,4 +53,22 @@ TEST_F(InfoCommand, VerifyTellsOfDamageOnStandardErrorAndByItsStatus) {
   EXPECT_EQ(run_program({"info", "procedural", "--verify"}).status, 0);
 }
 
+TEST_F(InfoCommand, TellsOfAPlanetConvertedAsTheThesisHasIt) {
+  const std::string planet = (folder_ / "thesis").string();
+  const Outcome made = run_program(
+      {"convert", (folder_ / "map.tif").string(), "-o", planet, "--level", "5", "--as-thesis", "--quiet"});
+  ASSERT_EQ(made.status, 0);
+  EXPECT_NE(made.err.find("warning: --as-thesis puts the ground up to 1083 km from where it is"),
+            std::string::npos)
+      << made.err;
+  const std::string credits =
+      nlohmann::json::parse(run_program({"info", planet, "--json"}).out)["credits"].dump();
+  EXPECT_NE(credits.find("AS THE THESIS HAS IT"), std::string::npos) << credits;
+  const auto height = [](const std::string& of, const char* at) {
+    return nlohmann::json::parse(run_program({"height", of, "--json", at}).out)["height_m"].get<double>();
+  };
+  EXPECT_EQ(height(planet, "0,90"), height(planet_, "0,90")) << "right on the meridians between diamonds";
+  EXPECT_NE(height(planet, "54.7356,45"), height(planet_, "54.7356,45"));
+}
+
 }  // namespace
