@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -14,24 +15,30 @@
 namespace converters {
 namespace {
 
-std::byte* map_nameless_file(std::size_t bytes, const std::filesystem::path& folder) {
-  const auto refuse = [&](const char* why) -> globe::Error {
-    return {folder.string(),
-            std::string("no room for ") + std::to_string(bytes >> 20) + " MB of scratch (" + why + ")",
-            "free some disk, or give more --memory"};
-  };
-  std::string name = (folder / "scratch-XXXXXX").string();
-  const int file = ::mkstemp(name.data());
-  if (file < 0) throw refuse(std::strerror(errno));
-  ::unlink(name.c_str());
-  // Allocated now: writing to a hole of a full disk through a mapping would end the program.
+globe::Error no_room(const std::filesystem::path& where, std::size_t bytes, int failure) {
+  return {where.string(),
+          "no room for " + std::to_string(bytes >> 20) + " MB of scratch (" + std::strerror(failure) + ")",
+          "free some disk, or give more --memory"};
+}
+
+/// Allocated now: writing to a hole of a full disk through a mapping would end the program. Takes the
+/// descriptor.
+std::byte* map_new_file(int file, std::size_t bytes, const std::filesystem::path& where) {
+  if (file < 0) throw no_room(where, bytes, errno);
   const int failure = ::posix_fallocate(file, 0, static_cast<off_t>(bytes));
   void* data =
       failure != 0 ? MAP_FAILED : ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  const int why = failure != 0 ? failure : errno;
   ::close(file);
-  if (failure != 0) throw refuse(std::strerror(failure));
-  if (data == MAP_FAILED) throw refuse(std::strerror(errno));
+  if (data == MAP_FAILED) throw no_room(where, bytes, why);
   return static_cast<std::byte*>(data);
+}
+
+std::byte* map_nameless_file(std::size_t bytes, const std::filesystem::path& folder) {
+  std::string name = (folder / "scratch-XXXXXX").string();
+  const int file = ::mkstemp(name.data());
+  if (file >= 0) ::unlink(name.c_str());
+  return map_new_file(file, bytes, folder);
 }
 
 }  // namespace
@@ -66,6 +73,14 @@ Buffer::Buffer(const std::filesystem::path& file, std::size_t bytes) : bytes_(by
   ::close(descriptor);
   if (data == MAP_FAILED) throw refuse(why);
   data_ = static_cast<std::byte*>(data);
+}
+
+Buffer Buffer::in_new_file(const std::filesystem::path& file, std::size_t bytes) {
+  Buffer buffer;
+  buffer.data_ =
+      map_new_file(::open(file.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666), bytes, file);
+  buffer.bytes_ = bytes;
+  return buffer;
 }
 
 Buffer::~Buffer() {

@@ -21,6 +21,8 @@ class Buffer {
   /// The contents of a file, mapped; changes reach the file. Throws globe::Error when it cannot be mapped or
   /// is not of that size.
   Buffer(const std::filesystem::path& file, std::size_t bytes);
+  /// A new file of that size, mapped likewise. Throws globe::Error when the disk has no room.
+  static Buffer in_new_file(const std::filesystem::path& file, std::size_t bytes);
   ~Buffer();
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;

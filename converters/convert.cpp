@@ -91,6 +91,7 @@ class Conversion {
         ellipsoid_(ellipsoid_of(options)),
         threads_(threads_of(options)),
         tasks_(std::move(tasks)),
+        sharing_(sharing),
         output_(options.planet, options.overwrite, recipe_of(options), sharing),
         limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
         arena_(threads_) {
@@ -163,7 +164,8 @@ class Conversion {
     if (first >= task.jobs.size()) return;
     const bool heights = task.layer.kind == MapKind::kHeights;
     const std::unique_ptr<const Geoid> geoid = heights ? open_geoid() : nullptr;
-    const MapStack maps = load_layer(task.layer, budget_, report_);
+    const SpoolFolder spools{output_.parts().folder, sharing_ == OutputFolder::Sharing::kInTeam};
+    const MapStack maps = load_layer(task.layer, budget_, report_, spools);
     std::atomic<double> done = static_cast<double>(std::count_if(
         task.jobs.begin(), task.jobs.end(), [&](const Job& job) { return output_.done(job).has_value(); }));
     const NodeSource nodes = [&](const NodeRect& rect, const RowSink& sink) {
@@ -196,6 +198,10 @@ class Conversion {
           },
           tbb::simple_partitioner{});
     });
+    if (sharing_ == OutputFolder::Sharing::kAlone) {  // others may still need them
+      for (std::size_t k = 0; k < task.layer.maps.size(); ++k)
+        std::filesystem::remove(spool_file(spools, task.layer.kind, k));
+    }
   }
 
   std::unique_ptr<const Geoid> open_geoid() {
@@ -253,6 +259,7 @@ class Conversion {
   Ellipsoid ellipsoid_;
   int threads_;
   std::vector<Task> tasks_;
+  OutputFolder::Sharing sharing_;
   OutputFolder output_;
   tbb::global_control limit_;
   tbb::task_arena arena_;

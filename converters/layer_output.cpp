@@ -124,12 +124,15 @@ std::vector<globe::planet::StoredLayer> write_layers(const std::vector<LayerOutp
     if (layer.stored_level < 0) return;
     const std::filesystem::path path = folder / (layer.info.name + "_" + std::to_string(d) + ".tif");
     const double row = (double(globe::planet::nodes_per_side(layer.stored_level)) + 1) * layer.info.channels;
-    const std::filesystem::path temporary = path.string() + ".partial";
-    write_file(layers[index], static_cast<int>(d), temporary, [&](int rows) {
-      done = done + row * rows;
-      progress(std::min(1.0, done / all_samples));
-    });
-    std::filesystem::rename(temporary, path);
+    // One under its final name is whole: left by a conversion that was interrupted later.
+    if (!std::filesystem::exists(path)) {
+      const std::filesystem::path temporary = path.string() + ".partial";
+      write_file(layers[index], static_cast<int>(d), temporary, [&](int rows) {
+        done = done + row * rows;
+        progress(std::min(1.0, done / all_samples));
+      });
+      std::filesystem::rename(temporary, path);
+    }
     stored[index].files[d] = globe::planet::describe_file(path);
   });
   return stored;

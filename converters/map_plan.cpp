@@ -181,13 +181,21 @@ std::optional<std::string> datum_of(const PlannedLayer& layer) {
   return datum;
 }
 
-MapStack load_layer(PlannedLayer& layer, MemoryBudget& budget, const Report& report) {
+std::filesystem::path spool_file(const SpoolFolder& spools, MapKind kind, std::size_t map) {
+  if (spools.path.empty()) return {};
+  return spools.path / ((kind == MapKind::kHeights ? "height_" : "color_") + std::to_string(map) + ".source");
+}
+
+MapStack load_layer(PlannedLayer& layer, MemoryBudget& budget, const Report& report,
+                    const SpoolFolder& spools) {
   MapStack maps;
-  for (PlannedMap& map : layer.maps) {
+  for (std::size_t k = 0; k < layer.maps.size(); ++k) {
+    PlannedMap& map = layer.maps[k];
+    const Spool spool{spool_file(spools, layer.kind, k), spools.always};
     const std::string name = map.opened.raster->info().name;
     auto source =
         std::make_shared<SourceMap>(*map.opened.raster, map.opened.geometry, map.opened.rule, map.factor,
-                                    budget, report.stage("reading " + what(layer.kind)));
+                                    budget, report.stage("reading " + what(layer.kind)), spool);
     if (source->has_voids()) {
       char share[32];
       std::snprintf(share, sizeof share, "%.4g %%", 100.0 * source->void_share());

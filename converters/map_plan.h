@@ -47,7 +47,15 @@ std::vector<std::string> credits_of(const PlannedLayer& layer);
 /// The vertical datum that the files of the heights name, when those that name one agree.
 std::optional<std::string> datum_of(const PlannedLayer& layer);
 
-/// Reads the maps to their end.
-MapStack load_layer(PlannedLayer& layer, MemoryBudget& budget, const Report& report);
+/// Reads the maps to their end; what is decoded may go to spools of a folder (see Spool).
+struct SpoolFolder {
+  std::filesystem::path path;
+  bool always = false;
+};
+MapStack load_layer(PlannedLayer& layer, MemoryBudget& budget, const Report& report,
+                    const SpoolFolder& spools = {});
+
+/// Where load_layer leaves the samples of a layer's map.
+std::filesystem::path spool_file(const SpoolFolder& spools, MapKind kind, std::size_t map);
 
 }  // namespace converters

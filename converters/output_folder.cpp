@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "globe/base/error.h"
+#include "globe/base/file_lock.h"
 #include "globe/planet/planet_file.h"
 
 namespace converters {
@@ -58,22 +59,6 @@ void write_text(const fs::path& path, const std::string& text) {
   fs::rename(temporary, path);
 }
 
-/// Holds a file's lock; others wait.
-class Lock {
- public:
-  explicit Lock(const fs::path& path) : file_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-    if (file_ >= 0) ::flock(file_, LOCK_EX);
-  }
-  ~Lock() {
-    if (file_ >= 0) ::close(file_);
-  }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-
- private:
-  int file_;
-};
-
 fs::path mark_path(const fs::path& work, const Job& job) {
   return PartFiles{work}.tiles(job).replace_extension(".done");
 }
@@ -109,7 +94,7 @@ OutputFolder::OutputFolder(const fs::path& planet, bool overwrite, const std::st
 }
 
 void OutputFolder::set_up(const std::string& recipe, bool overwrite) {
-  const Lock lock(work_ / "setup.lock");
+  const globe::FileLock lock(work_ / "setup.lock");
   const fs::path path = work_ / kRecipe;
   const std::optional<std::string> begun = read_text(path);
   if (begun == recipe) return;

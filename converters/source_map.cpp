@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <limits>
 
 #include "converters/srgb.h"
 #include "globe/base/error.h"
+#include "globe/base/file_lock.h"
+#include "globe/base/pending_file.h"
 
 namespace converters {
 namespace {
@@ -94,7 +97,7 @@ void decode_run(std::size_t count, int raw_channels, bool masked, int channels, 
 }  // namespace
 
 SourceMap::SourceMap(RasterSource& raster, const MapGeometry& geometry, const ValueRule& rule, int factor,
-                     MemoryBudget& budget, const std::function<void(double)>& progress)
+                     MemoryBudget& budget, const std::function<void(double)>& progress, const Spool& spool)
     : geometry_(factor > 1 ? reduced(geometry, factor) : geometry),
       channels_(rule.channels()),
       stored_channels_(raster.info().channels),
@@ -139,7 +142,17 @@ SourceMap::SourceMap(RasterSource& raster, const MapGeometry& geometry, const Va
   }
   const std::size_t row_bytes = static_cast<std::size_t>(geometry_.width) *
                                 static_cast<std::size_t>(stored_channels_) * size_of(stored_);
-  samples_ = Buffer(row_bytes * static_cast<std::size_t>(geometry_.height), budget);
+  const std::size_t bytes = row_bytes * static_cast<std::size_t>(geometry_.height);
+  const bool spooled = !spool.file.empty() && (spool.always || bytes > budget.bytes_left);
+  std::optional<globe::FileLock> lock;  // one decodes, the others wait for it
+  if (spooled) {
+    lock.emplace(spool.lock());
+    if (take(spool, bytes)) {
+      if (as_values) decode_.clear();
+      return;
+    }
+  }
+  samples_ = spooled ? Buffer::in_new_file(spool.temporary(), bytes) : Buffer(bytes, budget);
   for (int y = 0; y < geometry_.height; ++y) {
     std::byte* to = samples_.data() + static_cast<std::size_t>(y) * row_bytes;
     if (as_values) {
@@ -159,6 +172,38 @@ SourceMap::SourceMap(RasterSource& raster, const MapGeometry& geometry, const Va
   if (as_values) decode_.clear();
   count_voids();
   if (void_share_ >= 1.0) throw globe::Error(info.name, "holds no valid sample", "check --nodata");
+  if (spooled) leave(spool);
+}
+
+bool SourceMap::take(const Spool& spool, std::size_t bytes) {
+  if (!std::filesystem::exists(spool.file)) return false;
+  std::ifstream voids(spool.voids(), std::ios::binary);
+  char filled = 0;
+  voids.read(reinterpret_cast<char*>(&void_share_), sizeof void_share_);
+  voids.get(filled);
+  if (filled != 0) {
+    fill_.emplace(geometry_, channels_);
+    fill_->load(voids);
+  }
+  if (!voids) {
+    fill_.reset();
+    return false;
+  }
+  samples_ = Buffer(spool.file, bytes);
+  return true;
+}
+
+void SourceMap::leave(const Spool& spool) const {
+  std::ofstream voids(spool.voids(), std::ios::binary);
+  voids.write(reinterpret_cast<const char*>(&void_share_), sizeof void_share_);
+  voids.put(fill_ ? 1 : 0);
+  if (fill_) fill_->save(voids);
+  voids.close();
+  if (!voids || !globe::flush_to_disk(spool.voids()) || !globe::flush_to_disk(spool.temporary())) {
+    throw globe::Error(spool.file.string(), "cannot be written",
+                       "free some disk, then the same command goes on");
+  }
+  std::filesystem::rename(spool.temporary(), spool.file);
 }
 
 void SourceMap::read_run(int x, int y, int count, float* out) const {

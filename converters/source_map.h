@@ -7,6 +7,7 @@
 #include "converters/buffer.h"
 #include "converters/map_geometry.h"
 #include "converters/raster_source.h"
+#include "converters/spool.h"
 #include "converters/void_fill.h"
 
 namespace converters {
@@ -47,9 +48,10 @@ class SourceMap {
  public:
   /// Reads the raster to its end. `factor` x factor samples are averaged into one on the way (period and
   /// height of a map of the whole planet must be multiples of it). `progress` hears of the share read. Throws
-  /// globe::Error when the raster cannot be decoded or holds nothing but voids.
+  /// globe::Error when the raster cannot be decoded or holds nothing but voids. What another has spooled is
+  /// taken from there.
   SourceMap(RasterSource& raster, const MapGeometry& geometry, const ValueRule& rule, int factor,
-            MemoryBudget& budget, const std::function<void(double)>& progress);
+            MemoryBudget& budget, const std::function<void(double)>& progress, const Spool& spool = {});
 
   const MapGeometry& geometry() const { return geometry_; }
   int channels() const { return channels_; }
@@ -75,6 +77,9 @@ class SourceMap {
   Run run_at(int x, int y, int most) const;
   void read_run(int x, int y, int count, float* out) const;
   void count_voids();
+  /// False when there is nothing whole there.
+  bool take(const Spool& spool, std::size_t bytes);
+  void leave(const Spool& spool) const;
 
   MapGeometry geometry_;
   int channels_;

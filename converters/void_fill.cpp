@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <istream>
+#include <ostream>
 
 namespace converters {
 namespace {
@@ -109,6 +111,16 @@ void VoidFill::value(const SamplePlace& place, float* out) const {
     return (at.whole + at.fraction + 0.5) / factor_ - 0.5;
   };
   interpolate(grid_, block(place.x), block(place.y), out);
+}
+
+void VoidFill::save(std::ostream& stream) const {
+  stream.write(reinterpret_cast<const char*>(grid_.values.data()),
+               static_cast<std::streamsize>(grid_.values.size() * sizeof(float)));
+}
+
+void VoidFill::load(std::istream& stream) {
+  stream.read(reinterpret_cast<char*>(grid_.values.data()),
+              static_cast<std::streamsize>(grid_.values.size() * sizeof(float)));
 }
 
 }  // namespace converters

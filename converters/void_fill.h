@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <iosfwd>
 #include <vector>
 
 #include "converters/map_geometry.h"
@@ -23,6 +24,10 @@ class VoidFill {
   void finish();
 
   void value(const SamplePlace& place, float* out) const;
+
+  /// A finished fill as bytes, to be loaded into one of the same map. The stream fails when it ends early.
+  void save(std::ostream& stream) const;
+  void load(std::istream& stream);
 
  private:
   struct Grid {

@@ -116,6 +116,18 @@ TEST_F(ConvertJobs, WhatIsLeftOfAPlanetThatWasBeingClearedAwayCountsForNothing) 
   expect_whole();
 }
 
+TEST_F(ConvertJobs, ALargeMapIsDecodedOnceForAll) {
+  ASSERT_EQ(run_program(command() + Words{"--job", "1"}).status, 0);
+  const std::filesystem::path spool = planet() + ".partial/work/height_0.source";
+  ASSERT_EQ(std::filesystem::file_size(spool), 1024U * 512U * 4U);
+  // What is in the spool is what is converted: another job takes it from there.
+  std::fstream(spool, std::ios::in | std::ios::out | std::ios::binary).write("\0\0\0\0", 4);
+  const auto changed = std::filesystem::last_write_time(spool);
+  ASSERT_EQ(run_program(command() + Words{"--job", "2"}).status, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(spool), changed);
+  std::filesystem::remove_all(planet() + ".partial");
+}
+
 TEST_F(ConvertJobs, AJobOutOfRangeIsRefused) {
   const Outcome one = run_program(command() + Words{"--job", "16", "--quiet"});
   EXPECT_EQ(one.status, 2);
