@@ -157,7 +157,7 @@ SourceMap::SourceMap(RasterSource& raster, const MapGeometry& geometry, const Va
     }
   }
   if (as_values) decode_.clear();
-  count_voids();
+  count_voids(budget);
   if (void_share_ >= 1.0) throw globe::Error(info.name, "holds no valid sample", "check --nodata");
 }
 
@@ -222,7 +222,7 @@ void SourceMap::read(Window& window) const {
   }
 }
 
-void SourceMap::count_voids() {
+void SourceMap::count_voids(MemoryBudget& budget) {
   // Integers of a type whose every number is valid have no voids: nothing to look for.
   if (stored_ != SampleType::kFloat && !masked_ &&
       std::none_of(decode_.begin(), decode_.end(), [](float v) { return std::isnan(v); }))
@@ -251,7 +251,7 @@ void SourceMap::count_voids() {
   }
   void_share_ = any_valid ? std::min(void_area / whole_area, std::nextafter(1.0, 0.0)) : 1.0;
   if (void_area == 0.0 && any_valid) return;
-  fill.finish();
+  fill.finish(budget);
   fill_ = std::move(fill);
 }
 

@@ -74,7 +74,7 @@ class SourceMap {
   };
   Run run_at(int x, int y, int most) const;
   void read_run(int x, int y, int count, float* out) const;
-  void count_voids();
+  void count_voids(MemoryBudget& budget);
 
   MapGeometry geometry_;
   int channels_;
