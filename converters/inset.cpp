@@ -88,7 +88,7 @@ Plan plan_inset(const InsetOptions& options, const PlanetFile& planet, MapKind k
   for (PlannedMap& map : plan.maps.maps) {
     map.filter = options.filter.value_or(default_filter(map.opened.geometry, plan.maps.level));
     map.factor = reading_factor(map.opened.geometry, map.filter, plan.maps.level);
-    const RasterInfo& info = map.opened.raster->info();
+    const RasterInfo& info = map.opened.info;
     report.note(plan.layer + " " + info.name + ": " + std::to_string(info.width) + "x" +
                 std::to_string(info.height) + ", " + map.opened.frame +
                 (map.opened.values.empty() ? "" : ", " + map.opened.values) + "; level " +

@@ -145,8 +145,9 @@ OpenedMap open_map(const MapInput& input, MapKind kind, const PlanetFrame& frame
       map.raster = std::move(by_gdal);
     }
   }
+  map.info = map.raster->info();
   map.geometry = geometry_of(input, *map.raster, placed_raster, frame, map.frame);
-  if (kind == MapKind::kHeights) set_values(input, map.raster->info(), map);
+  if (kind == MapKind::kHeights) set_values(input, map.info, map);
   return map;
 }
 

@@ -29,6 +29,7 @@ struct MapInput {
 /// A map whose file is open.
 struct OpenedMap {
   std::unique_ptr<RasterSource> raster;
+  RasterInfo info;  ///< of the raster
   MapGeometry geometry;
   ValueRule rule;
   std::string frame;   ///< in words: extent or coordinate reference system, registration, and who says so

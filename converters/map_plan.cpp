@@ -46,7 +46,7 @@ std::string share_text(double share) {
 
 void warn_of_another_body(const OpenedMap& map, MapKind kind, const Ellipsoid& ellipsoid,
                           const Report& report) {
-  const RasterInfo& info = map.raster->info();
+  const RasterInfo& info = map.info;
   const std::string hint = hinted_body(info);
   if (hint.empty() || hint == body_of(ellipsoid)) return;
   report.warning(
@@ -57,7 +57,7 @@ void warn_of_another_body(const OpenedMap& map, MapKind kind, const Ellipsoid& e
 OpenedMap open(const MapInput& input, MapKind kind, const ConvertOptions& options, const Ellipsoid& ellipsoid,
                int threads, const Report& report) {
   OpenedMap map = open_map(input, kind, {ellipsoid, options.latitude}, threads);
-  const RasterInfo& info = map.raster->info();
+  const RasterInfo& info = map.info;
   const int channels = info.channels - (info.has_mask ? 1 : 0);
   if (kind == MapKind::kHeights && channels > 1) {
     report.warning("heights " + info.name + " has " + std::to_string(channels) +
@@ -83,7 +83,7 @@ int level_of(const std::vector<PlannedMap>& maps, MapKind kind, const Report& re
 }
 
 void note(const PlannedMap& map, MapKind kind, int level, const Report& report) {
-  const RasterInfo& info = map.opened.raster->info();
+  const RasterInfo& info = map.opened.info;
   report.note(what(kind) + " " + info.name + ": " + size_text(info) + ", " + map.opened.frame +
               (map.opened.values.empty() ? "" : ", " + map.opened.values) + "; level " +
               std::to_string(level) + ", " + number_text(map.opened.geometry.samples_per_quadrant()) +
@@ -161,7 +161,7 @@ PlannedLayer plan_layer(const std::vector<MapInput>& inputs, MapKind kind, std::
 std::vector<std::string> credits_of(const PlannedLayer& layer) {
   std::vector<std::string> credits;
   for (const PlannedMap& map : layer.maps) {
-    const RasterInfo& info = map.opened.raster->info();
+    const RasterInfo& info = map.opened.info;
     credits.push_back(
         what(layer.kind) + " from " + info.name + " (" + size_text(info) + "), filter " +
         name_of(map.filter) +
@@ -173,7 +173,7 @@ std::vector<std::string> credits_of(const PlannedLayer& layer) {
 std::optional<std::string> datum_of(const PlannedLayer& layer) {
   std::optional<std::string> datum;
   for (const PlannedMap& map : layer.maps) {
-    const std::string& name = map.opened.raster->info().vertical_datum;
+    const std::string& name = map.opened.info.vertical_datum;
     if (name.empty()) continue;
     if (datum && *datum != name) return std::nullopt;
     datum = name;
@@ -192,10 +192,11 @@ MapStack load_layer(PlannedLayer& layer, MemoryBudget& budget, const Report& rep
   for (std::size_t k = 0; k < layer.maps.size(); ++k) {
     PlannedMap& map = layer.maps[k];
     const Spool spool{spool_file(spools, layer.kind, k), spools.always};
-    const std::string name = map.opened.raster->info().name;
+    const std::string name = map.opened.info.name;
     auto source =
         std::make_shared<SourceMap>(*map.opened.raster, map.opened.geometry, map.opened.rule, map.factor,
                                     budget, report.stage("reading " + what(layer.kind)), spool);
+    map.opened.raster.reset();  // many files stay open otherwise
     if (source->has_voids()) {
       char share[32];
       std::snprintf(share, sizeof share, "%.4g %%", 100.0 * source->void_share());

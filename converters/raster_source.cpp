@@ -65,6 +65,7 @@ class ImageSource : public RasterSource {
     info_.width = spec.width;
     info_.height = spec.height;
     info_.channels = std::min(spec.nchannels, 4);
+    info_.has_mask = spec.alpha_channel == info_.channels - 1 && info_.channels > 1;
     info_.type = sample_type(spec.format);
     info_.linear_light =
         spec.get_string_attribute("oiio:ColorSpace") == "Linear" || info_.type == SampleType::kFloat;

@@ -147,7 +147,7 @@ SourceMap::SourceMap(RasterSource& raster, const MapGeometry& geometry, const Va
   std::optional<globe::FileLock> lock;  // one decodes, the others wait for it
   if (spooled) {
     lock.emplace(spool.lock());
-    if (take(spool, bytes)) {
+    if (take(spool, bytes, budget)) {
       if (as_values) decode_.clear();
       return;
     }
@@ -170,12 +170,12 @@ SourceMap::SourceMap(RasterSource& raster, const MapGeometry& geometry, const Va
     }
   }
   if (as_values) decode_.clear();
-  count_voids();
+  count_voids(budget);
   if (void_share_ >= 1.0) throw globe::Error(info.name, "holds no valid sample", "check --nodata");
   if (spooled) leave(spool);
 }
 
-bool SourceMap::take(const Spool& spool, std::size_t bytes) {
+bool SourceMap::take(const Spool& spool, std::size_t bytes, MemoryBudget& budget) {
   if (!std::filesystem::exists(spool.file)) return false;
   std::ifstream voids(spool.voids(), std::ios::binary);
   char filled = 0;
@@ -183,7 +183,7 @@ bool SourceMap::take(const Spool& spool, std::size_t bytes) {
   voids.get(filled);
   if (filled != 0) {
     fill_.emplace(geometry_, channels_);
-    fill_->load(voids);
+    fill_->load(voids, budget);
   }
   if (!voids) {
     fill_.reset();
@@ -267,7 +267,7 @@ void SourceMap::read(Window& window) const {
   }
 }
 
-void SourceMap::count_voids() {
+void SourceMap::count_voids(MemoryBudget& budget) {
   // Integers of a type whose every number is valid have no voids: nothing to look for.
   if (stored_ != SampleType::kFloat && !masked_ &&
       std::none_of(decode_.begin(), decode_.end(), [](float v) { return std::isnan(v); }))
@@ -296,7 +296,7 @@ void SourceMap::count_voids() {
   }
   void_share_ = any_valid ? std::min(void_area / whole_area, std::nextafter(1.0, 0.0)) : 1.0;
   if (void_area == 0.0 && any_valid) return;
-  fill.finish();
+  fill.finish(budget);
   fill_ = std::move(fill);
 }
 

@@ -76,9 +76,9 @@ class SourceMap {
   };
   Run run_at(int x, int y, int most) const;
   void read_run(int x, int y, int count, float* out) const;
-  void count_voids();
+  void count_voids(MemoryBudget& budget);
   /// False when there is nothing whole there.
-  bool take(const Spool& spool, std::size_t bytes);
+  bool take(const Spool& spool, std::size_t bytes, MemoryBudget& budget);
   void leave(const Spool& spool) const;
 
   MapGeometry geometry_;

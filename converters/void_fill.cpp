@@ -67,13 +67,13 @@ void VoidFill::fill_from(const Grid& coarse, Grid& fine) const {
     for (int x = 0; x < fine.width; ++x) {
       float* to = fine.at(x, y, stride_);
       if (to[channels_] > 0.0F) continue;
-      interpolate(coarse, (x - 0.5) / 2.0, (y - 0.5) / 2.0, to);
+      interpolate(blocks_of(coarse), (x - 0.5) / 2.0, (y - 0.5) / 2.0, to);
       to[channels_] = 1.0F;
     }
   }
 }
 
-void VoidFill::finish() {
+void VoidFill::finish(MemoryBudget& budget) {
   for (std::size_t k = 0; k < grid_.values.size(); k += static_cast<std::size_t>(stride_)) {
     float* block = grid_.values.data() + k;
     for (int c = 0; c < channels_ && block[channels_] > 0.0F; ++c) block[c] /= block[channels_];
@@ -82,10 +82,17 @@ void VoidFill::finish() {
   while (pyramid.back().width > 1 || pyramid.back().height > 1) pyramid.push_back(coarser(pyramid.back()));
   for (std::size_t k = pyramid.size() - 1; k-- > 0;) fill_from(pyramid[k + 1], pyramid[k]);
   grid_ = std::move(pyramid.front());
+  pyramid.clear();
+  const std::size_t blocks = grid_.values.size() / static_cast<std::size_t>(stride_);
+  filled_ = Buffer(blocks * static_cast<std::size_t>(channels_) * sizeof(float), budget);
+  float* to = filled_.as<float>();
+  for (std::size_t k = 0; k < blocks; ++k, to += channels_)
+    std::copy_n(grid_.values.data() + k * static_cast<std::size_t>(stride_), channels_, to);
+  grid_.values = {};
 }
 
 /// Bilinear between block centres; columns wrap or are held at the ends, rows are held at theirs.
-void VoidFill::interpolate(const Grid& grid, double x, double y, float* out) const {
+void VoidFill::interpolate(const Blocks& grid, double x, double y, float* out) const {
   const double left = std::floor(x);
   const double top = std::floor(y);
   const std::array<double, 2> wx{1.0 - (x - left), x - left};
@@ -97,7 +104,7 @@ void VoidFill::interpolate(const Grid& grid, double x, double y, float* out) con
       const int wanted = static_cast<int>(left) + a;
       const int column =
           wraps_ ? (wanted + 2 * grid.width) % grid.width : std::clamp(wanted, 0, grid.width - 1);
-      const float* from = grid.at(column, row, stride_);
+      const float* from = grid.at(column, row);
       for (std::size_t c = 0; c < static_cast<std::size_t>(channels_); ++c)
         sum[c] +=
             wx[static_cast<std::size_t>(a)] * wy[static_cast<std::size_t>(b)] * static_cast<double>(from[c]);
@@ -110,17 +117,20 @@ void VoidFill::value(const SamplePlace& place, float* out) const {
   const auto block = [&](const SampleCoordinate& at) {
     return (at.whole + at.fraction + 0.5) / factor_ - 0.5;
   };
-  interpolate(grid_, block(place.x), block(place.y), out);
+  interpolate({grid_.width, grid_.height, channels_, filled_.as<float>()}, block(place.x), block(place.y),
+              out);
 }
 
 void VoidFill::save(std::ostream& stream) const {
-  stream.write(reinterpret_cast<const char*>(grid_.values.data()),
-               static_cast<std::streamsize>(grid_.values.size() * sizeof(float)));
+  stream.write(reinterpret_cast<const char*>(filled_.data()), static_cast<std::streamsize>(filled_.size()));
 }
 
-void VoidFill::load(std::istream& stream) {
-  stream.read(reinterpret_cast<char*>(grid_.values.data()),
-              static_cast<std::streamsize>(grid_.values.size() * sizeof(float)));
+void VoidFill::load(std::istream& stream, MemoryBudget& budget) {
+  filled_ = Buffer(grid_.values.size() / static_cast<std::size_t>(stride_) *
+                       static_cast<std::size_t>(channels_) * sizeof(float),
+                   budget);
+  grid_.values = {};
+  stream.read(reinterpret_cast<char*>(filled_.data()), static_cast<std::streamsize>(filled_.size()));
 }
 
 }  // namespace converters

@@ -4,6 +4,7 @@
 #include <iosfwd>
 #include <vector>
 
+#include "converters/buffer.h"
 #include "converters/map_geometry.h"
 
 namespace converters {
@@ -20,14 +21,15 @@ class VoidFill {
   /// Adds one valid sample of the map.
   void add(int x, int y, const float* value);
 
-  /// Closes the gaps, after the last add. At least one sample must have come.
-  void finish();
+  /// Closes the gaps, after the last add, and keeps what came of it within the budget. At least one sample
+  /// must have come.
+  void finish(MemoryBudget& budget);
 
   void value(const SamplePlace& place, float* out) const;
 
-  /// A finished fill as bytes, to be loaded into one of the same map. The stream fails when it ends early.
+  /// A finished fill as bytes, to be loaded into a new one of the same map. The stream fails when it ends early.
   void save(std::ostream& stream) const;
-  void load(std::istream& stream);
+  void load(std::istream& stream, MemoryBudget& budget);
 
  private:
   struct Grid {
@@ -37,15 +39,28 @@ class VoidFill {
     float* at(int x, int y, int stride);
     const float* at(int x, int y, int stride) const;
   };
+  /// Values of blocks, channels beside one another, that lie somewhere.
+  struct Blocks {
+    int width, height, stride;
+    const float* values;
+
+    const float* at(int x, int y) const {
+      return values +
+             (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+                 static_cast<std::size_t>(stride);
+    }
+  };
+  Blocks blocks_of(const Grid& grid) const { return {grid.width, grid.height, stride_, grid.values.data()}; }
   Grid coarser(const Grid& fine) const;
   void fill_from(const Grid& coarse, Grid& fine) const;
-  void interpolate(const Grid& grid, double x, double y, float* out) const;
+  void interpolate(const Blocks& grid, double x, double y, float* out) const;
 
   int channels_;
   int stride_;
   int factor_;
-  bool wraps_;  ///< columns go all around
-  Grid grid_;
+  bool wraps_;     ///< columns go all around
+  Grid grid_;      ///< until it is finished
+  Buffer filled_;  ///< then: the same without weights
 };
 
 }  // namespace converters

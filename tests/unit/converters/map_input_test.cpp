@@ -1,5 +1,6 @@
 #include "converters/map_input.h"
 
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -303,6 +304,24 @@ TEST(OpenMap, TakesColorsByTheirMeaningAndWhatTheyHide) {
   const Loaded hidden = load({folder / "masked.tif"}, MapKind::kColors, kEarth, Filter::kNearest);
   EXPECT_EQ(value_at(hidden.maps, 49.5, 10.5, 18)[3], 1.0F) << "only one band is nodata";
   EXPECT_EQ(value_at(hidden.maps, 49.5, 11.5, 18)[3], 0.0F);
+}
+
+TEST(OpenMap, HidesWhatIsTransparentInAPicture) {
+  const TemporaryFolder folder;
+  std::vector<std::uint8_t> samples;
+  for (int k = 0; k < 64 * 32; ++k) {
+    const std::uint8_t alpha = k % 64 < 32 ? 255 : 0;
+    samples.insert(samples.end(), {200, 100, 50, alpha});
+  }
+  const auto output = OIIO::ImageOutput::create((folder / "map.png").string());
+  OIIO::ImageSpec spec(64, 32, 4, OIIO::TypeDesc::UINT8);
+  spec.alpha_channel = 3;
+  ASSERT_TRUE(output->open((folder / "map.png").string(), spec));
+  ASSERT_TRUE(output->write_image(OIIO::TypeDesc::UINT8, samples.data()) && output->close());
+  const Loaded loaded = load({folder / "map.png"}, MapKind::kColors, kEarth, Filter::kNearest);
+  EXPECT_EQ(value_at(loaded.maps, 10, -90, 10)[3], 1.0F);
+  EXPECT_GT(value_at(loaded.maps, 10, -90, 10)[0], 0.5F);
+  EXPECT_EQ(value_at(loaded.maps, 10, 90, 10)[3], 0.0F);
 }
 
 TEST(OpenMap, NamesTheVerticalDatumOfTheFile) {
