@@ -13,6 +13,7 @@
 #include "app/planet_argument.h"
 #include "app/progress.h"
 #include "converters/export_map.h"
+#include "converters/export_mesh.h"
 #include "globe/base/error.h"
 #include "globe/base/pending_file.h"
 
@@ -104,8 +105,22 @@ std::size_t memory_of(const Arguments& arguments) {
          static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) / 2;
 }
 
+/// A mesh is a part of the planet, of heights, as its level has them.
+void require_mesh_options(const Arguments& arguments) {
+  if (arguments.extent.empty()) {
+    throw UsageError(arguments.output, "a mesh shows a part of the planet", "give --extent W,S,E,N");
+  }
+  for (const auto& [option, text] :
+       {std::pair{"--layer", arguments.layer}, std::pair{"--range", arguments.range},
+        std::pair{"--filter", arguments.filter}}) {
+    if (!text.empty()) throw UsageError(option, "means nothing to a mesh", "leave it out");
+  }
+}
+
 void run(const Arguments& arguments) {
   converters::ExportOptions options = options_from(arguments);
+  const bool is_mesh = options.output.extension() == ".glb";
+  if (is_mesh) require_mesh_options(arguments);
   globe::refuse_existing(options.output, options.overwrite);
   // For tiles as they are stored, for ground made of them, for pixels on their way.
   const std::size_t share = (memory_of(arguments) - kReservedBytes) / 3;
@@ -120,7 +135,11 @@ void run(const Arguments& arguments) {
   };
   if (!arguments.quiet) listener.note = print;
   listener.progress = [&](const std::string& stage, double fraction) { progress.show(stage, fraction); };
-  converters::export_map(surface, options, listener);
+  if (is_mesh) {
+    converters::export_mesh(surface, options, listener);
+  } else {
+    converters::export_map(surface, options, listener);
+  }
 }
 
 }  // namespace
@@ -130,7 +149,9 @@ void add_export(CLI::App& program) {
   CLI::App* command = program.add_subcommand("export", "Make a latitude-longitude map of a planet");
   command->add_option("PLANET", arguments->planet, "folder made by globe convert, or procedural[:SEED]")
       ->required();
-  command->add_option("-o,--output", arguments->output, "the map to make: .tif (GeoTIFF), .png or .exr")
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "the map to make: .tif (GeoTIFF), .png or .exr; .glb: a local mesh")
       ->required();
   command
       ->add_option("--layer", arguments->layer,
@@ -162,6 +183,9 @@ void add_export(CLI::App& program) {
       "A .tif holds heights as float metres or colors as sRGB bytes, its place and coordinate system; a "
       ".png\n"
       "colors as sRGB bytes or heights as 16 bits; an .exr float metres or linear light.\n"
+      "A .glb is the ground of --extent (at most 90 degrees each way) as one mesh of trixels, metres around "
+      "its\n"
+      "middle (x east, y up, z south), with the colors as a picture of --size.\n"
       "Example: globe export my-planet -o alps.tif --extent 5,43,17,49");
   command->callback([arguments] { run(*arguments); });
 }

@@ -116,23 +116,6 @@ MapContent content_of(const Surface& surface, const ExportOptions& options) {
   return (picture && has_colors) || !surface.has_heights() ? MapContent::kColors : MapContent::kHeights;
 }
 
-/// The layer's own; for heights in a part of the planet that an inset lies in, the inset's.
-int default_level(const Surface& surface, MapContent content, const Extent& extent) {
-  if (!surface.has_data()) return surface.data_level();
-  if (content == MapContent::kColors) return surface.dataset()->layer("color")->level;
-  int level = surface.data_level();
-  if (surface.insets().empty() || extent == Extent{}) return level;
-  constexpr int kPlaces = 32;  // each way
-  for (int y = 0; y < kPlaces; ++y) {
-    const double lat = extent.south + (extent.north - extent.south) * (y + 0.5) / kPlaces;
-    for (int x = 0; x < kPlaces; ++x) {
-      const double lon = extent.west + (extent.east - extent.west) * (x + 0.5) / kPlaces;
-      level = std::max(level, surface.data_at(globe::geo::normal_from_degrees(lat, lon)).level);
-    }
-  }
-  return level;
-}
-
 Plan plan(const Surface& surface, const ExportOptions& options) {
   const std::string name = surface.info().name;
   Plan plan{};
@@ -197,6 +180,22 @@ std::pair<double, double> range_of(const Surface& surface, const ExportOptions& 
 }
 
 }  // namespace
+
+int default_level(const Surface& surface, MapContent content, const Extent& extent) {
+  if (!surface.has_data()) return surface.data_level();
+  if (content == MapContent::kColors) return surface.dataset()->layer("color")->level;
+  int level = surface.data_level();
+  if (surface.insets().empty() || extent == Extent{}) return level;
+  constexpr int kPlaces = 32;  // each way
+  for (int y = 0; y < kPlaces; ++y) {
+    const double lat = extent.south + (extent.north - extent.south) * (y + 0.5) / kPlaces;
+    for (int x = 0; x < kPlaces; ++x) {
+      const double lon = extent.west + (extent.east - extent.west) * (x + 0.5) / kPlaces;
+      level = std::max(level, surface.data_at(globe::geo::normal_from_degrees(lat, lon)).level);
+    }
+  }
+  return level;
+}
 
 int area_level(const MapWindow& window, int finest_level) {
   const double step_deg = std::min(window.step_x_deg, window.step_y_deg);

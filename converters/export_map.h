@@ -40,6 +40,10 @@ struct ExportOptions {
 void export_map(const std::shared_ptr<const globe::planet::Surface>& surface, const ExportOptions& options,
                 const ConvertListener& listener);
 
+/// The level of the data: the layer's own, or for heights in a part of the planet that an inset lies in, the
+/// inset's.
+int default_level(const globe::planet::Surface& surface, MapContent content, const Extent& extent);
+
 /// The level that `area` reads for a window: see export_map.
 int area_level(const MapWindow& window, int finest_level);
 

@@ -140,7 +140,7 @@ void require_map_name(const std::filesystem::path& path) {
   for (const char* extension : {".tif", ".png", ".exr"}) {
     if (path.extension() == extension) return;
   }
-  throw globe::UsageError(path.string(), "maps are written as .tif, .png or .exr",
+  throw globe::UsageError(path.string(), "maps are written as .tif, .png or .exr, meshes as .glb",
                           "give a name that ends so");
 }
 

@@ -79,6 +79,17 @@ TEST_F(ExportCommand, TakesColorsForAPngOfAPlanetThatHasThem) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "x.tif"));
 }
 
+TEST_F(ExportCommand, MakesAMeshOfAPart) {
+  const Outcome run = make("made.glb", {"--extent", "170,-20,-170,10"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.err.find("level 6"), std::string::npos) << run.err;
+  EXPECT_EQ(cli::text_of(folder_ / "made.glb").substr(0, 4), "glTF");
+  const std::string mesh = (folder_ / "other.glb").string();
+  cli::expect_refusals("export", {{{planet_, "-o", mesh}, 2},
+                                  {{planet_, "-o", mesh, "--extent", "0,0,9,9", "--range", "0,1"}, 2},
+                                  {{planet_, "-o", mesh, "--extent", "0,0,180,9"}, 2}});
+}
+
 TEST_F(ExportCommand, RefusesBadRequestsWithOneLine) {
   const std::string map = (folder_ / "made.tif").string();
   cli::expect_refusals("export", {{{planet_}, 2},
