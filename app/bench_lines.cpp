@@ -49,7 +49,7 @@ Benchmark sight_benchmark() {
   for (std::size_t k = 0; k < kPairs; ++k) {
     auto& [a, b] = pairs[k];
     b = {std::clamp(a.lat_deg + 0.1 + 0.02 * static_cast<double>(k), -90.0, 90.0), a.lon_deg + 0.5};
-    for (Geodetic* eye : {&a, &b}) eye->h_m = globe::planet::sight_ground(*surface, *eye, level) + 2.0;
+    for (Geodetic* eye : {&a, &b}) eye->h_m = globe::planet::sight_ground(*surface, *eye, {level}) + 2.0;
   }
   return {"planet.sight", kPairs, [pairs, surface, level, seen = std::make_shared<int>(0)] {
             for (const auto& [a, b] : pairs)

@@ -11,6 +11,7 @@
 #include "globe/base/error.h"
 #include "globe/geo/geodesic.h"
 #include "globe/htm/trixel.h"
+#include "globe/planet/profile.h"
 
 namespace app {
 namespace {
@@ -39,11 +40,12 @@ struct Answer {
   double distance_m = 0;                     ///< from A to B along the geodesic
 };
 
-Geodetic eye_of(const Point& point, const Surface& surface, int level, bool agl) {
+Geodetic eye_of(const Point& point, const Surface& surface, const globe::planet::SightSettings& settings,
+                bool agl) {
   constexpr double kHighest = 1e9;
   Geodetic eye = point.position;
   if (!point.has_alt || agl)
-    eye.h_m = globe::planet::sight_ground(surface, eye, level) + (point.has_alt ? eye.h_m : kEyeHeight);
+    eye.h_m = globe::planet::sight_ground(surface, eye, settings) + (point.has_alt ? eye.h_m : kEyeHeight);
   const double deepest = -surface.ellipsoid().a / 10.0;
   if (!(eye.h_m >= deepest && eye.h_m <= kHighest)) {
     throw globe::UsageError("ALT " + number_text(eye.h_m, std::nullopt), "is no height of an eye",
@@ -91,6 +93,12 @@ std::string table_line(const Answer& answer, char separator, const std::optional
   return line;
 }
 
+/// The finest level of the ground between the eyes.
+int level_of(const Surface& surface, const Answer& answer, const SightOptions& options) {
+  return options.level ? *options.level
+                       : globe::planet::data_levels_along(surface, answer.a, answer.b).finest;
+}
+
 int run(const SightOptions& options) {
   if (!(options.refraction >= 0.0 && options.refraction <= 1.0)) {
     throw globe::UsageError("--refraction " + number_text(options.refraction, std::nullopt),
@@ -100,19 +108,20 @@ int run(const SightOptions& options) {
   const auto surface = open_planet(options.planet);
   require_heights(*surface, options.planet);
   warn_of_unknown_datum(*surface, options.planet);
-  const int level = options.level.value_or(surface->data_level());
+  const globe::planet::SightSettings settings{options.level.value_or(surface->finest_data_level()),
+                                              options.refraction, !options.level && surface->has_data()};
   const globe::geo::GeodesicSolver geodesics(surface->ellipsoid());
   const auto answer = [&](const std::string& record) {
     const PointPair pair = parse_point_pair(record);
     Answer found;
-    found.a = eye_of(pair.a, *surface, level, options.agl);
-    found.b = eye_of(pair.b, *surface, level, options.agl);
-    found.sight = globe::planet::sight(*surface, found.a, found.b, {level, options.refraction});
+    found.a = eye_of(pair.a, *surface, settings, options.agl);
+    found.b = eye_of(pair.b, *surface, settings, options.agl);
+    found.sight = globe::planet::sight(*surface, found.a, found.b, settings);
     const auto distance_m = [&](const Geodetic& place) { return geodesics.inverse(found.a, place).s12_m; };
     found.lowest_at_m = distance_m(found.sight.lowest.ray);
     if (found.sight.blocked_at) found.blocked_at_m = distance_m(found.sight.blocked_at->ray);
     found.distance_m = distance_m(found.b);
-    if (options.records.json) return json_line(found, options, *surface, level);
+    if (options.records.json) return json_line(found, options, *surface, level_of(*surface, found, options));
     return table_line(found, options.records.csv ? ',' : ' ', options.records.precision);
   };
   return answer_records(records, options.records, "state,clearance_m,lat,lon,at_m,distance_m", answer,
@@ -136,8 +145,8 @@ void add_sight(CLI::App& program, int& exit_status) {
   command->add_flag("--agl", options->agl, "every ALT counts from the ground");
   command
       ->add_option("--level", options->level,
-                   "HTM level of the ground (default: the data at their finest; procedural: the level of its "
-                   "own relief)")
+                   "HTM level of the ground (default: the data at their finest, those of insets in insets; "
+                   "procedural: the level of its own relief)")
       ->check(CLI::Range(0, globe::htm::kMaxLevel));
   add_record_options(*command, options->records);
   command->footer(

@@ -72,10 +72,11 @@ void run(const SummaryCommand& command) {
   require_heights(*surface, command.planet);
   const auto region = make_region(command.region, surface->ellipsoid());
   warn_of_unknown_datum(*surface, command.planet);
-  const int level = command.level.value_or(surface->data_level());
-  ordered_json object = to_json(globe::planet::summarize(*surface, *region, level), command.precision);
-  object["level"] = level;
-  object["source"] = surface->has_data() && level <= surface->data_level() ? "data" : "synthesised";
+  const auto found = globe::planet::summarize(*surface, *region, command.level);
+  ordered_json object = to_json(found, command.precision);
+  object["level"] = found ? found->level : command.level.value_or(surface->data_level());
+  const bool measured = surface->has_data() && command.level.value_or(0) <= surface->data_level();
+  object["source"] = measured ? "data" : "synthesised";
   object["datum"] = surface->info().vertical_datum;
   const std::string answer = command.json ? object.dump() + '\n' : to_text(object, command.precision);
   std::fputs(answer.c_str(), stdout);
@@ -95,8 +96,8 @@ void add_summary(CLI::App& program) {
   command
       ->add_option(
           "--level", summary->level,
-          "HTM level whose nodes are the samples (default: the data at their finest; procedural: the "
-          "level of its own relief)")
+          "HTM level whose nodes are the samples (default: the data at their finest, those of insets where "
+          "they lie; procedural: the level of its own relief)")
       ->check(CLI::Range(0, globe::htm::kMaxLevel));
   command->add_flag("--json", summary->json, "one JSON object");
   command
@@ -105,10 +106,14 @@ void add_summary(CLI::App& program) {
       ->check(CLI::Range(0, 17));
   command->footer(
       "Text: a line each of min_m HEIGHT LAT LON, mean_m, max_m HEIGHT LAT LON, area_km2, samples, level,\n"
-      "source, datum. SAMPLES counts the nodes of the level in the region, border included; min and max are "
-      "of\n"
-      "these nodes, exactly. MEAN is that of the surface linear between them, weighted by true area on the\n"
-      "ellipsoid, right to 2e-5 of the range of heights. AREA is the region's own, right to 2e-4 or better.\n"
+      "source, datum. LEVEL is the finest of the data met. SAMPLES counts the nodes in the region, border\n"
+      "included: of the planet's own data, and of the insets' where they lie, or with --level of that level; "
+      "min\n"
+      "and max are of these nodes, exactly. MEAN is that of the surface linear between them, weighted by "
+      "true\n"
+      "area on the ellipsoid, right to 2e-5 of the range of heights. AREA is the region's own, right to 2e-4 "
+      "or\n"
+      "better.\n"
       "A region without a node has 0 samples: min and max are then those of the surface between the nodes.\n"
       "An empty region answers - (null). A RADIUS in units of length is measured on the planet's ellipsoid.\n"
       "Without data of the level (procedural, levels finer than the data) every node is made: at most 4096\n"

@@ -20,8 +20,8 @@ bool holds(const InsetInfo& inset, const Node& node) {
   });
 }
 
-bool all_are(const TileValues<float>& weight, float value) {
-  return std::all_of(weight.values.begin(), weight.values.end(), [=](float w) { return w == value; });
+bool all_are(const std::vector<float>& weights, float value) {
+  return std::all_of(weights.begin(), weights.end(), [=](float w) { return w == value; });
 }
 
 }  // namespace
@@ -145,7 +145,7 @@ std::vector<InsetTile> InsetStack::tiles(const TileId& id, const TileParts* pare
       if (from == parent->insets.end()) continue;
       found.push_back(child(*from, id));
     }
-    if (id.level >= insets_[k].info.level && all_are(found.back().weight, 0.0f)) found.pop_back();
+    if (id.level >= insets_[k].info.level && all_are(found.back().weight.values, 0.0f)) found.pop_back();
   }
   const auto topmost = std::find_if(found.rbegin(), found.rend(),
                                     [&](const InsetTile& tile) { return hides_all_below(tile); });
@@ -160,7 +160,7 @@ std::vector<InsetTile> InsetStack::tiles(const TileId& id, const TileParts* pare
 
 bool InsetStack::hides_all_below(const InsetTile& tile) const {
   const Inset& inset = insets_[tile.inset];
-  return inset.has_heights && tile.weight.id.level >= inset.info.level && all_are(tile.weight, 1.0f);
+  return inset.has_heights && tile.weight.id.level >= inset.info.level && all_are(tile.weight.values, 1.0f);
 }
 
 bool InsetStack::hide_base(const std::vector<InsetTile>& tiles) const {
@@ -208,29 +208,49 @@ SurfaceTile InsetStack::put_together(const SurfaceTile& base, const std::vector<
   return whole;
 }
 
+double InsetStack::data_height(std::size_t k, const Node& node, double below) const {
+  const Inset& inset = insets_[k];
+  if (node.level <= inset.info.level) {
+    if (!holds(inset.info, node)) return below;
+    const double w = static_cast<double>(read(k, "weight", node));
+    return w > 0.0 ? laid_over(below, static_cast<double>(read(k, "height", node)), w) : below;
+  }
+  const WeightedNodes around = trixel_nodes(node, inset.info.level);
+  if (!std::any_of(around.nodes.begin(), around.nodes.end(),
+                   [&](const Node& corner) { return holds(inset.info, corner); }))
+    return below;
+  const double w =
+      around.sum([&](const Node& corner) { return static_cast<double>(read(k, "weight", corner)); });
+  if (w <= 0.0) return below;
+  const double above =
+      around.sum([&](const Node& corner) { return static_cast<double>(read(k, "height", corner)); });
+  return laid_over(below, above, w);
+}
+
 double InsetStack::data_height(const Node& node, double below) const {
+  for (std::size_t k = 0; k < insets_.size(); ++k)
+    if (insets_[k].has_heights) below = data_height(k, node, below);
+  return below;
+}
+
+void InsetStack::lay_data_heights(int d, int level, int i0, int j0, int ni, int nj, double* heights) const {
+  const auto count = static_cast<std::size_t>(ni) * static_cast<std::size_t>(nj);
+  std::vector<float> weight(count), height(count);
   for (std::size_t k = 0; k < insets_.size(); ++k) {
     const Inset& inset = insets_[k];
     if (!inset.has_heights) continue;
-    if (node.level <= inset.info.level) {
-      if (!holds(inset.info, node)) continue;
-      const double w = static_cast<double>(read(k, "weight", node));
-      if (w > 0.0) below = laid_over(below, static_cast<double>(read(k, "height", node)), w);
+    if (level > inset.info.level) {
+      double* at = heights;
+      for (int j = j0; j < j0 + nj; ++j)
+        for (int i = i0; i < i0 + ni; ++i, ++at) *at = data_height(k, {d, level, i, j}, *at);
       continue;
     }
-    const WeightedNodes around = trixel_nodes(node, inset.info.level);
-    if (!std::any_of(around.nodes.begin(), around.nodes.end(),
-                     [&](const Node& corner) { return holds(inset.info, corner); }))
-      continue;
-    const double w =
-        around.sum([&](const Node& corner) { return static_cast<double>(read(k, "weight", corner)); });
-    if (w > 0.0) {
-      const double above =
-          around.sum([&](const Node& corner) { return static_cast<double>(read(k, "height", corner)); });
-      below = laid_over(below, above, w);
-    }
+    dataset_->read_inset(k, "weight", d, level, i0, j0, ni, nj, weight.data());
+    if (all_are(weight, 0.0f)) continue;
+    dataset_->read_inset(k, "height", d, level, i0, j0, ni, nj, height.data());
+    for (std::size_t at = 0; at < count; ++at)
+      heights[at] = laid_over(heights[at], static_cast<double>(height[at]), static_cast<double>(weight[at]));
   }
-  return below;
 }
 
 InsetStack::DataAt InsetStack::data_at(const dvec3& u) const {
@@ -252,6 +272,13 @@ InsetStack::DataAt InsetStack::data_at(const dvec3& u) const {
     found.level = std::max(found.level, inset.info.level);
     found.alone = *least >= 1.0f;
   }
+  return found;
+}
+
+std::optional<double> InsetStack::highest() const {
+  std::optional<double> found;
+  for (const Inset& inset : insets_)
+    if (inset.has_heights) found = std::max(found.value_or(inset.info.max), inset.info.max);
   return found;
 }
 

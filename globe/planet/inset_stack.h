@@ -62,6 +62,9 @@ class InsetStack {
   /// @param below  height of the node without insets
   double data_height(const Node& node, double below) const;
 
+  /// The same for a rectangle of nodes, row by row, in place.
+  void lay_data_heights(int d, int level, int i0, int j0, int ni, int nj, double* heights) const;
+
   /// The data of heights around a place.
   struct DataAt {
     int level = -1;                    ///< finest level of what shows; -1 where no inset does
@@ -70,6 +73,8 @@ class InsetStack {
   };
   DataAt data_at(const dvec3& u) const;
 
+  /// Highest of all heights; nothing without.
+  std::optional<double> highest() const;
   /// Highest of the insets that touch a cell (i, j) of a level; nothing where none does.
   std::optional<double> highest(int d, int level, int i, int j) const;
 
@@ -84,6 +89,7 @@ class InsetStack {
   std::vector<float> read(std::size_t inset, const char* what, std::size_t channels, const TileId& id,
                           int guard) const;
   float read(std::size_t inset, const char* what, const Node& node) const;
+  double data_height(std::size_t inset, const Node& node, double below) const;
   InsetTile read_tile(std::size_t inset, const TileId& id) const;
   InsetTile child(const InsetTile& parent, const TileId& id) const;
   bool hides_all_below(const InsetTile& tile) const;

@@ -43,8 +43,13 @@ Height height_at(const Surface& surface, const dvec3& u, int level, Interpolatio
 }
 
 Height data_height_at(const Surface& surface, const dvec3& u, Interpolation interpolation) {
-  const int level = surface.data_at(u).level;
-  if (level <= surface.data_level()) return height_at(surface, u, level, interpolation);
+  const DataSource data = surface.data_at(u);
+  const int level = data.level;
+  if (data.inset.empty()) {
+    // Nodes of the planet's own that lie in an inset beside the place have a say as the planet's own.
+    return interpolate([&](const Node& node) { return surface.own_height(node); }, locate(u, level),
+                       interpolation);
+  }
   return interpolate([&](const Node& node) { return surface.data_height(node); }, locate(u, level),
                      interpolation);
 }

@@ -12,6 +12,7 @@
 
 #include "globe/htm/trixel.h"
 #include "globe/planet/cell.h"
+#include "globe/planet/inset_stack.h"
 
 namespace globe::planet {
 namespace {
@@ -35,13 +36,13 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 /// The ground within one trixel of the level.
 class TrixelGround {
  public:
-  TrixelGround(const Surface& surface, htm::Trixel trixel) {
+  TrixelGround(const Surface& surface, htm::Trixel trixel, bool by_data) {
     const Cell cell = cell_from_trixel(trixel);
     const auto node = [&](int di, int dj) { return Node{cell.d, cell.level, cell.i + di, cell.j + dj}; };
     const std::array<Node, 3> nodes{cell.half == 0 ? node(0, 0) : node(1, 1), node(1, 0), node(0, 1)};
     for (std::size_t k = 0; k < 3; ++k) {
       corners_[k] = node_direction(nodes[k]);
-      heights_[k] = surface.drawn_height(surface.height(nodes[k]));
+      heights_[k] = surface.drawn_height(by_data ? surface.data_height(nodes[k]) : surface.height(nodes[k]));
     }
   }
 
@@ -62,12 +63,22 @@ class TrixelGround {
 /// The ground of a level, trixels kept as they are met.
 class LevelGround {
  public:
-  LevelGround(const Surface& surface, int level) : surface_(surface), level_(level) {}
+  LevelGround(const Surface& surface, const SightSettings& settings)
+      : surface_(surface), level_(settings.level), by_data_(settings.by_data && surface.has_data()) {}
+
+  /// The trixel in which the ground around a place is linear.
+  htm::Trixel around(const dvec3& u) const {
+    if (by_data_ && level_ > surface_.data_level()) {
+      const htm::Trixel own = htm::trixel_at(u, surface_.data_level());
+      if (!highest_inset(own)) return own;
+    }
+    return htm::trixel_at(u, level_);
+  }
 
   const TrixelGround& of(htm::Trixel trixel) {
     constexpr std::size_t kMostKept = 65536;
     if (trixels_.size() > kMostKept) trixels_.clear();
-    return trixels_.try_emplace(trixel, surface_, trixel).first->second;
+    return trixels_.try_emplace(trixel, surface_, trixel, by_data_).first->second;
   }
 
   /// A bound of the ground within a trixel of the level or a coarser one; of all ground without one.
@@ -77,12 +88,25 @@ class LevelGround {
   }
 
  private:
+  std::optional<double> highest_inset(htm::Trixel trixel) const {
+    if (surface_.insets().empty()) return std::nullopt;
+    const Cell cell = cell_from_trixel(trixel);
+    return surface_.insets().highest(cell.d, cell.level, cell.i, cell.j);
+  }
+
   double known_bound(std::optional<htm::Trixel> trixel) {
-    const Dataset* dataset = surface_.dataset();
-    if (level_ > surface_.data_level() || dataset == nullptr) {
-      const double whole = dataset == nullptr ? kBuiltinRelief : kUnbounded;
+    if (surface_.dataset() == nullptr || (!by_data_ && level_ > surface_.data_level())) {
+      const double whole = surface_.dataset() == nullptr ? kBuiltinRelief : kUnbounded;
       return trixel && level_ > surface_.data_level() ? std::min(whole, tile_bound(*trixel)) : whole;
     }
+    const double own = own_data_bound(trixel);
+    const std::optional<double> inset = trixel ? highest_inset(*trixel) : surface_.insets().highest();
+    return inset ? std::max(own, *inset) : own;
+  }
+
+  /// Of the planet's own data.
+  double own_data_bound(std::optional<htm::Trixel> trixel) const {
+    const Dataset* dataset = surface_.dataset();
     const LayerInfo* ranges = dataset->layer("height_range");
     if (!trixel || ranges == nullptr) return dataset->layer("height")->max;
     const Cell cell = cell_from_trixel(*trixel);
@@ -114,6 +138,7 @@ class LevelGround {
 
   const Surface& surface_;
   int level_;
+  bool by_data_;
   std::unordered_map<htm::Trixel, TrixelGround> trixels_;
   std::unordered_map<std::uint64_t, double> tiles_;  ///< of `level_`
 };
@@ -124,7 +149,7 @@ struct RayPoint {
   double straight = 0;  ///< height of the straight line above the ellipsoid, metres
   double clearance = 0;
   geo::Geodetic place;  ///< h_m is the ray's
-  htm::Trixel trixel;   ///< of the level
+  htm::Trixel trixel;   ///< in which the ground around it is linear
 };
 
 /// A piece of the ray, and what its clearance cannot fall below.
@@ -143,7 +168,7 @@ class Ray {
       const SightSettings& settings)
       : surface_(surface),
         settings_(settings),
-        ground_(surface, settings.level),
+        ground_(surface, settings),
         a_(geo::ecef_from_geodetic(surface.ellipsoid(), from)),
         b_(geo::ecef_from_geodetic(surface.ellipsoid(), to)),
         length_(glm::distance(a_, b_)),
@@ -194,7 +219,7 @@ class Ray {
   /// @param place  h_m that of the straight line
   RayPoint point(double s, const geo::Geodetic& place) {
     const dvec3 u = geo::normal_from_degrees(place.lat_deg, place.lon_deg);
-    RayPoint result{s, place.h_m, 0.0, place, htm::trixel_at(u, settings_.level)};
+    RayPoint result{s, place.h_m, 0.0, place, ground_.around(u)};
     result.place.h_m += raised(s);
     result.clearance = result.place.h_m - ground_.of(result.trixel).height(u);
     return result;
@@ -229,8 +254,10 @@ class Ray {
     return ray - ground_.bound(common_ancestor(begin.trixel, end.trixel)) - slack_;
   }
 
-  /// The smallest trixel that holds two of the same level; none across the octahedron's edges.
+  /// The smallest trixel that holds two; none across the octahedron's edges.
   static std::optional<htm::Trixel> common_ancestor(htm::Trixel a, htm::Trixel b) {
+    while (htm::level(a) > htm::level(b)) a = htm::parent(a);
+    while (htm::level(b) > htm::level(a)) b = htm::parent(b);
     while (a != b) {
       if (htm::level(a) == 0) return std::nullopt;
       a = htm::parent(a);
@@ -273,9 +300,10 @@ Sight sight(const Surface& surface, const geo::Geodetic& a, const geo::Geodetic&
   return result;
 }
 
-double sight_ground(const Surface& surface, const geo::Geodetic& place, int level) {
+double sight_ground(const Surface& surface, const geo::Geodetic& place, const SightSettings& settings) {
   const dvec3 u = geo::normal_from_degrees(place.lat_deg, place.lon_deg);
-  return TrixelGround(surface, htm::trixel_at(u, level)).height(u);
+  LevelGround ground(surface, settings);
+  return ground.of(ground.around(u)).height(u);
 }
 
 }  // namespace globe::planet

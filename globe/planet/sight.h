@@ -10,6 +10,9 @@ struct SightSettings {
   int level = 0;  ///< of the ground, 0..htm::kMaxLevel
   double refraction =
       0;  ///< K in [0, 1]: the ray bends downward with K / R; 0 in a vacuum, light in air 0.13
+  /// The ground by the data alone, at their finest wherever that is, which must be no finer than `level`:
+  /// trixels of `level` where insets are, of the planet's own data elsewhere. Nothing is synthesised.
+  bool by_data = false;
 };
 
 /// A place on the ray between two eyes.
@@ -51,6 +54,6 @@ Sight sight(const Surface& surface, const geo::Geodetic& a, const geo::Geodetic&
             const SightSettings& settings);
 
 /// Height of the ground that `sight` looks over.
-double sight_ground(const Surface& surface, const geo::Geodetic& place, int level);
+double sight_ground(const Surface& surface, const geo::Geodetic& place, const SightSettings& settings);
 
 }  // namespace globe::planet

@@ -13,6 +13,7 @@
 #include "globe/geo/area.h"
 #include "globe/htm/cover.h"
 #include "globe/planet/border_cut.h"
+#include "globe/planet/inset_stack.h"
 #include "globe/planet/mean_height.h"
 
 namespace globe::planet {
@@ -42,17 +43,15 @@ std::uint64_t spread_bits(std::uint64_t v) {
   return (v | v << 1) & 0x5555555555555555U;
 }
 
-OrderKey key_of_cell(int d, int i, int j) {
-  return (static_cast<OrderKey>(d) << 58 | spread_bits(static_cast<std::uint64_t>(j)) << 1 |
-          spread_bits(static_cast<std::uint64_t>(i))) +
-         1;
+OrderKey key_of_cell(int d, int level, int i, int j) {
+  const auto finest = [&](int x) {
+    return spread_bits(static_cast<std::uint64_t>(x) << (kMaxLevel - level));
+  };
+  return (static_cast<OrderKey>(d) << 58 | finest(j) << 1 | finest(i)) + 1;
 }
 
-/// The first of all keys of nodes that belong to a trixel, or an earlier one.
-OrderKey first_key(const LatticeTrixel& t, int level) {
-  const int below = level - t.level;
-  return key_of_cell(t.d, t.cell_i() << below, t.cell_j() << below);
-}
+/// The first of all keys of nodes of any level that belong to a trixel, or an earlier one.
+OrderKey first_key(const LatticeTrixel& t) { return key_of_cell(t.d, t.level, t.cell_i(), t.cell_j()); }
 
 /// Calls visit(i, j) for the nodes of a level that belong to a trixel.
 template <typename Visit>
@@ -90,35 +89,37 @@ struct Best {
 /// Heights of a level in blocks.
 class Heights {
  public:
-  Heights(const Surface& surface, int level) : surface_(surface), level_(level) {}
+  Heights(const Surface& surface, int level, bool by_data)
+      : surface_(surface),
+        level_(level),
+        from_data_(surface.has_data() && (by_data || level <= surface.data_level())) {}
 
-  bool on_disk() const { return surface_.dataset() != nullptr && level_ <= surface_.data_level(); }
+  int level() const { return level_; }
+  int blocks() const { return block_level(level_); }  ///< level of their cells
+  bool from_data() const { return from_data_; }
 
   /// The block of the cell that holds a trixel of the block level or a finer one.
   HeightBlock block(const LatticeTrixel& t) {
     HeightBlock block;
     block.d = t.d;
     block.height_level = level_;
-    const int up = t.level - block_level(level_);
+    const int up = t.level - blocks();
     const int cells = block.cells();
     block.i0 = (t.cell_i() >> up) * cells;
     block.j0 = (t.cell_j() >> up) * cells;
-    if (on_disk()) {
-      read(block);
+    if (from_data_) {
+      surface_.data_heights(block.d, level_, block.i0, block.j0, cells + 1, cells + 1, block.values.data());
     } else {
       make(block);
     }
     return block;
   }
 
- private:
-  void read(HeightBlock& block) const {
-    std::array<float, (kBlockCells + 1) * (kBlockCells + 1)> values;
-    const int side = block.cells() + 1;
-    surface_.dataset()->read("height", block.d, level_, block.i0, block.j0, side, side, values.data());
-    std::copy_n(values.begin(), side * side, block.values.begin());
+  double height(const Node& node) const {
+    return from_data_ ? surface_.data_height(node) : surface_.height(node);
   }
 
+ private:
   void make(HeightBlock& block) {
     const TileId id = tile_of({block.d, level_, block.i0 + 1, block.j0 + 1});
     if (!tile_ || !(tile_->id == id)) tile_ = surface_.tile(id);
@@ -128,31 +129,32 @@ class Heights {
 
   const Surface& surface_;
   int level_;
+  bool from_data_;
   std::shared_ptr<const SurfaceTile> tile_;
 };
 
 class Summarizer {
  public:
-  Summarizer(const Surface& surface, const Region& region, int level)
+  Summarizer(const Surface& surface, const Region& region, std::optional<int> level)
       : surface_(surface),
         region_(region),
-        level_(level),
-        block_level_(block_level(level)),
-        heights_(surface, level),
-        has_pyramids_(heights_.on_disk() && level == surface.data_level() && has_pyramid("height_range") &&
-                      has_pyramid("height_mean")),
+        whole_(surface, level.value_or(surface.data_level()), !level),
+        fine_(surface, level.value_or(surface.finest_data_level()), !level),
+        has_pyramids_(whole_.from_data() && whole_.level() == surface.data_level() &&
+                      has_pyramid("height_range") && has_pyramid("height_mean")),
         cutter_(region) {}
 
   std::optional<RegionSummary> run() {
-    if (!heights_.on_disk()) refuse_too_many_tiles();
+    if (!whole_.from_data()) refuse_too_many_tiles();
     for (int d = 0; d < kDiamonds; ++d) {
       for (const int sign : {1, -1}) {
         const LatticeTrixel root{d, 0, sign > 0 ? 0 : 1, sign > 0 ? 0 : 1, sign};
-        descend(root, corners(root), nullptr);
+        descend(root, corners(root), nullptr, whole_);
       }
     }
-    add_pole({0, level_, 0, 0}, kNorthPole);
-    add_pole({0, level_, nodes_per_side(level_), nodes_per_side(level_)}, kSouthPole);
+    const int n = nodes_per_side(whole_.level());
+    add_pole({0, whole_.level(), 0, 0}, kNorthPole);
+    add_pole({0, whole_.level(), n, n}, kSouthPole);
     search_inside();
     resolve_border();
     return result();
@@ -162,62 +164,80 @@ class Summarizer {
   /// Whether a layer of two numbers a cell goes down to the block level.
   bool has_pyramid(const char* name) const {
     const LayerInfo* layer = surface_.dataset()->layer(name);
-    return layer != nullptr && layer->channels == 2 && layer->level >= block_level_;
+    return layer != nullptr && layer->channels == 2 && layer->level >= whole_.blocks();
   }
 
   void refuse_too_many_tiles() const {
-    const int tile_level = std::max(0, level_ - 6);
+    const int tile_level = std::max(0, whole_.level() - 6);
     std::uint64_t halves = 0;
     htm::visit_cover(region_, {tile_level, false, 0, false}, [&](const htm::IdRange& range) {
       halves += range.last - range.first + 1;
       if (halves > 2 * kSummaryTiles) {
         throw Error("summary",
                     "the region holds more than " + std::to_string(kSummaryTiles) +
-                        " tiles of synthesised ground at level " + std::to_string(level_),
+                        " tiles of synthesised ground at level " + std::to_string(whole_.level()),
                     "take a smaller region or a lower --level");
       }
     });
   }
 
+  bool touches_inset(const LatticeTrixel& t) const {
+    return !surface_.insets().empty() && surface_.insets().highest(t.d, t.level, t.cell_i(), t.cell_j());
+  }
+
+  /// Whether a trixel of the planet's own data has to be looked at in those of an inset.
+  bool turns_fine(const LatticeTrixel& t, const Heights& heights) const {
+    return t.level == heights.level() && heights.level() < fine_.level() && touches_inset(t);
+  }
+
   /// @param block  the heights around the trixel, below the block level
-  void descend(const LatticeTrixel& t, const Corners& corners, const HeightBlock* block) {
+  void descend(const LatticeTrixel& t, const Corners& corners, const HeightBlock* block, Heights& heights) {
     const Relation relation = region_.relation(corners);
     if (relation == Relation::kDisjoint) return;
     if (relation == Relation::kInside) {
       const double area = geo::surface_area(surface_.ellipsoid(), corners);
       area_ += area;
-      samples_ += own_nodes(t, level_);
-      return add_ground(t, corners, area, block);
+      return add_ground(t, corners, area, block, heights);
     }
+    if (turns_fine(t, heights)) return descend(t, corners, nullptr, fine_);
     HeightBlock own;
-    if (t.level == block_level_) {
-      own = heights_.block(t);
+    if (block == nullptr && t.level >= heights.blocks()) {
+      own = heights.block(t);
       block = &own;
     }
-    if (t.level == level_) return add_cut(t, corners, *block);
+    if (t.level == heights.level()) return add_cut(t, corners, *block);
     const auto parts = children(t);
     const auto part_corners = children_corners(corners);
-    for (std::size_t k = 0; k < 4; ++k) descend(parts[k], part_corners[k], block);
+    for (std::size_t k = 0; k < 4; ++k) descend(parts[k], part_corners[k], block, heights);
   }
 
   /// Mean and extremes of a trixel that is wholly inside.
-  void add_ground(const LatticeTrixel& t, const Corners& corners, double area, const HeightBlock* block) {
-    if (t.level <= block_level_ && has_pyramids_) {
+  void add_ground(const LatticeTrixel& t, const Corners& corners, double area, const HeightBlock* block,
+                  Heights& heights) {
+    const bool touched = &heights == &whole_ && touches_inset(t);
+    if (t.level <= heights.blocks() && &heights == &whole_ && has_pyramids_ && !touched) {
       add_mean(area, static_cast<double>(read("height_mean", t)[t.half() == 0 ? 0 : 1]));
+      samples_ += own_nodes(t, heights.level());
+      finest_ = std::max(finest_, heights.level());
       inside_.push_back(t);
-    } else if (t.level < block_level_) {
+    } else if (turns_fine(t, heights)) {
+      add_ground(t, corners, area, nullptr, fine_);
+    } else if (t.level < heights.blocks() ||
+               (touched && t.level < heights.level() && heights.level() < fine_.level())) {
       const auto parts = children(t);
       const auto part_corners = children_corners(corners);
       for (std::size_t k = 0; k < 4; ++k)
-        add_ground(parts[k], part_corners[k], geo::surface_area(surface_.ellipsoid(), part_corners[k]),
-                   nullptr);
+        add_ground(parts[k], part_corners[k], geo::surface_area(surface_.ellipsoid(), part_corners[k]), block,
+                   heights);
     } else if (block == nullptr) {
-      const HeightBlock own = heights_.block(t);
-      add_ground(t, corners, area, &own);
+      const HeightBlock own = heights.block(t);
+      add_ground(t, corners, area, &own, heights);
     } else {
       add_mean(area, mean_height(surface_.ellipsoid(), *block, t, corners));
-      for_each_own_node(t, level_, [&](int i, int j) {
-        add_node({t.d, level_, i, j}, key_of_cell(t.d, i - 1, j), block->at(i, j));
+      samples_ += own_nodes(t, heights.level());
+      finest_ = std::max(finest_, heights.level());
+      for_each_own_node(t, heights.level(), [&](int i, int j) {
+        add_node({t.d, heights.level(), i, j}, key_of_cell(t.d, heights.level(), i - 1, j), block->at(i, j));
       });
     }
   }
@@ -242,14 +262,15 @@ class Summarizer {
   void add_pole(const Node& node, OrderKey key) {
     if (!region_.contains(node_direction(node))) return;
     ++samples_;
-    add_node(node, key, surface_.height(node));
+    add_node(node, key, whole_.height(node));
   }
 
   void add_cut(const LatticeTrixel& t, const Corners& corners, const HeightBlock& block) {
+    finest_ = std::max(finest_, t.level);
     cut_.push_back({corners, {block.at(t.i, t.j), block.at(t.i + t.sign, t.j), block.at(t.i, t.j + t.sign)}});
     if (t.sign < 0 || !cutter_.inside(corners[1])) return;
     ++samples_;
-    add_node({t.d, level_, t.i + 1, t.j}, key_of_cell(t.d, t.i, t.j), cut_.back().heights[1]);
+    add_node({t.d, t.level, t.i + 1, t.j}, key_of_cell(t.d, t.level, t.i, t.j), cut_.back().heights[1]);
   }
 
   /// Looks for better nodes inside, best block first. `sign` is 1 for the highest, -1 for the lowest.
@@ -266,17 +287,18 @@ class Summarizer {
     std::priority_queue<Candidate> queue;
     const auto add = [&](const LatticeTrixel& t) {
       const double bound = sign * static_cast<double>(read("height_range", t)[sign > 0 ? 1 : 0]);
-      const OrderKey key = first_key(t, level_);
+      const OrderKey key = first_key(t);
       if (best.is_beaten_by(bound, key)) queue.push({bound, key, t});
     };
     for (const LatticeTrixel& t : inside_) add(t);
     while (!queue.empty() && best.is_beaten_by(queue.top().bound, queue.top().key)) {
       const LatticeTrixel t = queue.top().trixel;
       queue.pop();
-      if (t.level == block_level_) {
-        const HeightBlock block = heights_.block(t);
-        for_each_own_node(t, level_, [&](int i, int j) {
-          best.take(sign * block.at(i, j), key_of_cell(t.d, i - 1, j), {t.d, level_, i, j});
+      if (t.level == whole_.blocks()) {
+        const HeightBlock block = whole_.block(t);
+        const int level = whole_.level();
+        for_each_own_node(t, level, [&](int i, int j) {
+          best.take(sign * block.at(i, j), key_of_cell(t.d, level, i - 1, j), {t.d, level, i, j});
         });
       } else {
         for (const LatticeTrixel& part : children(t)) add(part);
@@ -291,7 +313,7 @@ class Summarizer {
 
   /// Cuts the trixels on the border smaller, and those that are left along straight lines.
   void resolve_border() {
-    for (int level = level_; level < htm::kMaxLevel && !is_resolved(); ++level) {
+    for (int round = std::max(finest_, whole_.level()); round < htm::kMaxLevel && !is_resolved(); ++round) {
       std::vector<CutTrixel> finer;
       for (const CutTrixel& t : cut_) {
         for (const CutTrixel& part : t.parts()) {
@@ -333,7 +355,7 @@ class Summarizer {
 
   std::optional<RegionSummary> result() {
     RegionSummary summary;
-    summary.level = level_;
+    summary.level = std::max(finest_, whole_.level());
     summary.samples = samples_;
     summary.area_m2 = area_;
     if (samples_ > 0) {
@@ -351,9 +373,10 @@ class Summarizer {
 
   const Surface& surface_;
   const Region& region_;
-  int level_, block_level_;
-  Heights heights_;
+  Heights whole_;  ///< of the level asked; by the data: of the planet's own
+  Heights fine_;   ///< of the finest inset; where there is no inset the same as whole_
   bool has_pyramids_;
+  int finest_ = 0;
 
   std::uint64_t samples_ = 0;
   double area_ = 0;                      ///< of all that is counted
@@ -368,7 +391,8 @@ class Summarizer {
 
 }  // namespace
 
-std::optional<RegionSummary> summarize(const Surface& surface, const Region& region, int level) {
+std::optional<RegionSummary> summarize(const Surface& surface, const Region& region,
+                                       std::optional<int> level) {
   return Summarizer(surface, region, level).run();
 }
 

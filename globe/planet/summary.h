@@ -33,7 +33,7 @@ struct HeightAt {
 /// 2e-4 for polygons and boxes, also long thin ones (tests/hard/summary_test.cpp). Of the mean: 2e-5 of the
 /// range of heights, and what the area's error adds.
 struct RegionSummary {
-  int level = 0;
+  int level = 0;  ///< the finest that nodes were taken of
   std::uint64_t samples = 0;
   HeightAt lowest, highest;
   double mean_m = 0;
@@ -49,8 +49,13 @@ inline constexpr std::uint64_t kSummaryTiles = 4096;
 /// inside; nodes are looked at along the border and where the extremes are. So the work grows with the
 /// border, not with the area. At coarser levels, and of planets without these layers, all nodes are read.
 /// Finer than the data, and of the built-in planet, all nodes are made (about 0.4 µs each).
-/// @param level  0..htm::kMaxLevel
+///
+/// By the data: the nodes and the linear surface are those of the finest data everywhere, of the level of the
+/// insets' in those of the planet's own trixels that an inset touches, else of the planet's own; nothing is
+/// synthesised.
+/// @param level  0..htm::kMaxLevel; none: by the data (the built-in planet: its own level)
 /// Throws globe::Error when more than kSummaryTiles tiles would have to be made.
-std::optional<RegionSummary> summarize(const Surface& surface, const htm::Region& region, int level);
+std::optional<RegionSummary> summarize(const Surface& surface, const htm::Region& region,
+                                       std::optional<int> level);
 
 }  // namespace globe::planet

@@ -250,11 +250,11 @@ void Surface::finish_heights(SurfaceTile& tile, bool own_nodes_only) const {
   if (level == data_level_) {
     measure_ground(
         synthesis(), heights_around(tile, guard_of(own_nodes_only)),
-        [this](const Node& node) { return measured_height(node); }, tile);
+        [this](const Node& node) { return own_height(node); }, tile);
   }
 }
 
-double Surface::measured_height(const Node& node) const {
+double Surface::own_height(const Node& node) const {
   if (builtin_) return builtin_->at(node_direction(node)).height_m;
   if (!has_heights()) return 0.0;
   float h = 0.0f;
@@ -313,16 +313,39 @@ std::vector<float> Surface::read_nodes(const char* layer, const TileId& id, int 
 }
 
 double Surface::height(const Node& node) const {
-  if (node.level <= data_level_) return insets_->data_height(node, measured_height(node));
+  if (node.level <= data_level_) return insets_->data_height(node, own_height(node));
   return tile(tile_of(node))->height.at(node.i, node.j);
 }
 
 double Surface::data_height(const Node& node) const {
   const double own =
       node.level <= data_level_
-          ? measured_height(node)
-          : trixel_nodes(node, data_level_).sum([&](const Node& corner) { return measured_height(corner); });
+          ? own_height(node)
+          : trixel_nodes(node, data_level_).sum([&](const Node& corner) { return own_height(corner); });
   return insets_->data_height(node, own);
+}
+
+void Surface::data_heights(int d, int level, int i0, int j0, int ni, int nj, double* out) const {
+  const int down = std::max(level - data_level_, 0);
+  // The nodes of the planet's own data around them.
+  const int last = nodes_per_side(level - down);
+  const int c0 = i0 >> down, r0 = j0 >> down;
+  const int nc = std::min(((i0 + ni - 1) >> down) + 1, last) - c0 + 1;
+  const int nr = std::min(((j0 + nj - 1) >> down) + 1, last) - r0 + 1;
+  std::vector<float> own(static_cast<std::size_t>(nc) * static_cast<std::size_t>(nr), 0.0f);
+  if (has_heights()) dataset_->read("height", d, level - down, c0, r0, nc, nr, own.data());
+  const auto at = [&](const Node& node) {
+    return static_cast<double>(own[static_cast<std::size_t>(node.j - r0) * static_cast<std::size_t>(nc) +
+                                   static_cast<std::size_t>(node.i - c0)]);
+  };
+  double* to = out;
+  for (int j = j0; j < j0 + nj; ++j) {
+    for (int i = i0; i < i0 + ni; ++i, ++to) {
+      const Node node{d, level, i, j};
+      *to = down == 0 ? at(node) : trixel_nodes(node, data_level_).sum(at);
+    }
+  }
+  insets_->lay_data_heights(d, level, i0, j0, ni, nj, out);
 }
 
 DataSource Surface::data_at(const dvec3& u) const {

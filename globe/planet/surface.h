@@ -94,6 +94,11 @@ class Surface {
   /// Height of a node by the data alone: below the level of the planet's data, or an inset's, these are
   /// linear in their trixels. The same as height(node) down to the data level. REQUIRES: has_data().
   double data_height(const Node& node) const;
+  /// Height of a node of the data level or a coarser one by the planet's own data, as though it had no insets
+  /// (built-in planet: by its own function).
+  double own_height(const Node& node) const;
+  /// data_height of nodes i0 .. i0+ni-1, j0 .. j0+nj-1 of a diamond, row by row; cheaper than one by one.
+  void data_heights(int d, int level, int i0, int j0, int ni, int nj, double* out) const;
   /// The finest data at a place: data_level() but where there are insets.
   DataSource data_at(const dvec3& u) const;
   /// Height of the flat level-L trixel above a direction: linear between its three nodes.
@@ -148,8 +153,6 @@ class Surface {
   /// The tile if it has been made and is still held, else null.
   std::shared_ptr<const SurfaceTile> tile_at_hand(const TileId& id) const;
   void make_roots() const;
-  /// Height of a node of the data's finest level or a coarser one, from the planet's own data alone.
-  double measured_height(const Node& node) const;
   Synthesis synthesis() const;
   /// Channels that tiles of a level have.
   bool has_channel(Channel channel, int level) const;

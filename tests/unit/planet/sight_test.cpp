@@ -173,7 +173,7 @@ TEST(Sight, AWallIsFoundWhereItStands) {
     EXPECT_LT(there.blocked_at->ray.lon_deg, 10.25);
     EXPECT_GT(back.blocked_at->ray.lon_deg, 10.25);
     EXPECT_LT(back.blocked_at->ray.lon_deg, 10.5 + 2.0 * kNodes);
-    EXPECT_NEAR(there.blocked_at->ray.h_m, sight_ground(*planet, there.blocked_at->ray, 9), 0.01);
+    EXPECT_NEAR(there.blocked_at->ray.h_m, sight_ground(*planet, there.blocked_at->ray, {9}), 0.01);
     EXPECT_NEAR(there.lowest.ray.lon_deg, 10.25, 2.0 * kNodes);
     // Looks that end before the wall, or go over it.
     EXPECT_TRUE(sight(*planet, west, {lat, 9.75, 2000.0}, {9, 0.0}).visible);
@@ -192,7 +192,7 @@ TEST(Sight, AThinWallThatSamplesMissIsFound) {
     for (double lat = 19.8; lat < 20.5; lat += 0.01) {
       for (double lon = 9.7; lon < 10.3; lon += 0.01) {
         const Geodetic at{lat, lon};
-        if (sight_ground(surface, at, 9) > sight_ground(surface, best, 9)) best = at;
+        if (sight_ground(surface, at, {9}) > sight_ground(surface, best, {9})) best = at;
       }
     }
     return best;
@@ -215,7 +215,7 @@ Look any_look(const Surface& surface, std::mt19937_64& random, int level) {
   if (random() % 4 == 0) look.a = {random() % 2 == 0 ? 0.0 : 89.5, 90.0 * static_cast<double>(random() % 4)};
   look.b = from_here(look.a, 360.0 * unit(random), 3e5 * unit(random));
   for (Geodetic* eye : {&look.a, &look.b})
-    eye->h_m = sight_ground(surface, *eye, level) + std::pow(4000.0, unit(random));
+    eye->h_m = sight_ground(surface, *eye, {level}) + std::pow(4000.0, unit(random));
   return look;
 }
 
@@ -291,7 +291,7 @@ RC_GTEST_PROP(Sight, RaisingAnEyeNeverHides, (std::uint64_t seed)) {
 TEST(Sight, TouchingGroundIsNotBlocked) {
   const Surface& surface = *rough(geo::kMars);
   for (const Geodetic& place : {Geodetic{12, 34}, Geodetic{90, 0}, Geodetic{0, -90}}) {
-    const double ground = sight_ground(surface, place, 7);
+    const double ground = sight_ground(surface, place, {7});
     EXPECT_TRUE(sight(surface, raised(place, ground), raised(place, ground), {7, 0.0}).visible);
     EXPECT_TRUE(sight(surface, raised(place, ground), raised(place, ground + 1e6), {7, 0.0}).visible);
     const Sight under = sight(surface, raised(place, ground - 1.0), raised(place, ground + 1e6), {7, 0.0});
@@ -305,7 +305,7 @@ TEST(Sight, ThroughThePlanetIsBlockedAtOnce) {
     const Surface& surface = *rough(ellipsoid);
     for (const Geodetic& place : {Geodetic{0, 0}, Geodetic{90, 0}, Geodetic{45, 45}, Geodetic{-12.3, 77}}) {
       const Geodetic opposite{-place.lat_deg, place.lon_deg - 180.0};
-      const Geodetic a = raised(place, sight_ground(surface, place, 7) + 2.0);
+      const Geodetic a = raised(place, sight_ground(surface, place, {7}) + 2.0);
       const Sight found = sight(surface, a, raised(opposite, 9000.0), {7, 0.13});
       EXPECT_FALSE(found.visible);
       EXPECT_LT(found.lowest.clearance_m, -0.9 * ellipsoid.b());
@@ -319,8 +319,9 @@ TEST(Sight, FromOrbitSeesWhatTheHorizonLeaves) {
   const Geodetic station{10, 20, 4e5};
   const Geodetic near = from_here(station, 70, 1e6), far = from_here(station, 70, 4e6);
   EXPECT_TRUE(
-      sight(surface, station, raised(near, sight_ground(surface, near, 7) + 100.0), {7, 0.0}).visible);
-  EXPECT_FALSE(sight(surface, station, raised(far, sight_ground(surface, far, 7) + 100.0), {7, 0.0}).visible);
+      sight(surface, station, raised(near, sight_ground(surface, near, {7}) + 100.0), {7, 0.0}).visible);
+  EXPECT_FALSE(
+      sight(surface, station, raised(far, sight_ground(surface, far, {7}) + 100.0), {7, 0.0}).visible);
 }
 
 }  // namespace
