@@ -153,7 +153,7 @@ std::filesystem::path write_map(const Map& map, const std::filesystem::path& pat
 }
 
 std::shared_ptr<const Surface> convert(const Body& body, const std::filesystem::path& map, Filter filter,
-                                       const std::filesystem::path& planet) {
+                                       const std::filesystem::path& planet, bool as_thesis = false) {
   converters::ConvertOptions options;
   options.heights = {
       converters::MapInput{map, converters::Extent{body.west_deg, -90, body.west_deg + 360, 90}}};
@@ -161,6 +161,7 @@ std::shared_ptr<const Surface> convert(const Body& body, const std::filesystem::
   options.level = kLevel;
   options.planet = planet;
   options.ellipsoid = body.ellipsoid;
+  options.as_thesis = as_thesis;
   converters::convert(options, {});
   return tests::open_surface(planet);
 }
@@ -285,6 +286,112 @@ TEST(HardShores, LieWhereTheMapHasThem) {
     worst = std::max(worst, off);
   }
   hard::report("places", "shores against the map's, pixels", "0.5", hard::figure(worst));
+}
+
+struct Summit {
+  const char* name;
+  double lat_deg, lon_deg;  ///< of the real one; the map's highest pixel nearby stands for it
+};
+
+const std::vector<Summit> kEarthSummits{{"K2", 35.88, 76.51},
+                                        {"Kilimanjaro", -3.07, 37.35},
+                                        {"Aconcagua", -32.65, -70.01},
+                                        {"Denali", 63.07, -151.0},
+                                        {"Mont Blanc", 45.83, 6.86},
+                                        {"Elbrus", 43.35, 42.44},
+                                        {"Mauna Kea, Hawaii", 19.82, -155.47},
+                                        {"Fuji", 35.36, 138.73},
+                                        {"Vinson", -78.53, -85.6},
+                                        {"Puncak Jaya, New Guinea", -4.08, 137.18},
+                                        {"Kinabalu, Borneo", 6.08, 116.56},
+                                        {"Teide, Tenerife", 28.27, -16.64},
+                                        {"Piton des Neiges, Reunion", -21.1, 55.48},
+                                        {"Ras Dashen", 13.24, 38.37},
+                                        {"Chimborazo", -1.47, -78.82},
+                                        {"Rainier", 46.85, -121.76},
+                                        {"Beerenberg, Jan Mayen", 71.08, -8.16},
+                                        {"Mount Cook", -43.6, 170.14},
+                                        {"Pidurutalagala, Sri Lanka", 7.0, 80.77},
+                                        {"Kerinci, Sumatra", -1.7, 101.26},
+                                        {"Gunnbjorn", 68.92, -29.9},
+                                        {"Toubkal", 31.06, -7.92}};
+const std::vector<Summit> kMarsSummits{{"Olympus Mons", 18.65, 226.2},   {"Elysium Mons", 25.02, 147.21},
+                                       {"Ascraeus Mons", 11.92, 255.92}, {"Pavonis Mons", 1.48, 247.04},
+                                       {"Arsia Mons", -8.35, 239.91},    {"Hecates Tholus", 32.12, 150.24}};
+
+/// The pixel that nothing around it tops, uphill from a place.
+Geodetic summit_of(const Map& map, const Summit& from) {
+  int x = static_cast<int>(std::floor(map.column({from.lat_deg, from.lon_deg}) + 0.5));
+  int y = static_cast<int>(std::floor(map.row({from.lat_deg, from.lon_deg}) + 0.5));
+  for (bool climbs = true; climbs;) {
+    climbs = false;
+    int best_x = x, best_y = y;
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        if (map.at(x + dx, y + dy) > map.at(best_x, best_y)) best_x = x + dx, best_y = y + dy, climbs = true;
+      }
+    }
+    x = best_x, y = best_y;
+  }
+  return {90.0 - (y + 0.5) * map.step_deg(), map.west_deg + (x + 0.5) * map.step_deg()};
+}
+
+/// How far the highest node near a summit lies from its pixel's middle, in pixels north or east, whichever is
+/// more.
+double pixels_off(const Surface& surface, const Map& map, const Geodetic& summit) {
+  const auto place =
+      globe::planet::locate(globe::geo::normal_from_degrees(summit.lat_deg, summit.lon_deg), kLevel);
+  const int reach = static_cast<int>(2.0 * map.step_deg() / 90.0 * globe::planet::nodes_per_side(kLevel)) + 2;
+  double highest = -HUGE_VAL, off = 0;
+  for (int dj = -reach; dj <= reach; ++dj) {
+    for (int di = -reach; di <= reach; ++di) {
+      const Node node = globe::planet::fold({place.d, kLevel, static_cast<int>(std::lround(place.ij.x)) + di,
+                                             static_cast<int>(std::lround(place.ij.y)) + dj});
+      const Geodetic at = globe::geo::degrees_from_normal(globe::planet::node_direction(node));
+      const double north = std::abs(at.lat_deg - summit.lat_deg) / map.step_deg();
+      const double east = std::abs(std::remainder(at.lon_deg - summit.lon_deg, 360.0)) / map.step_deg();
+      if (north > 1.0 || east > 1.0 || surface.height(node) <= highest) continue;
+      highest = surface.height(node);
+      off = std::max(north, east);
+    }
+  }
+  return off;
+}
+
+TEST(HardSummits, StandWhereTheMapHasThem) {
+  int summits = 0;
+  double worst = 0;
+  for (const auto& [body, places] :
+       {std::pair{&kBodies[0], &kEarthSummits}, std::pair{&kBodies[2], &kMarsSummits}}) {
+    const std::filesystem::path path = std::filesystem::path(GLOBE_DATA_DIR) / body->file;
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "SAMPLE MAP MISSING: " << path;
+    const tests::TemporaryFolder folder;
+    const Map map = read_map(*body, path);
+    const auto surface =
+        convert(*body, write_map(map, folder / "map.tif"), Filter::kNearest, folder / "planet");
+    for (const Summit& summit : *places) {
+      const double off = pixels_off(*surface, map, summit_of(map, summit));
+      EXPECT_LE(off, 0.5) << summit.name;
+      worst = std::max(worst, off);
+      ++summits;
+    }
+  }
+  EXPECT_GE(summits, 28);
+  hard::report("places", std::to_string(summits) + " summits and islands against the map's, pixels", "0.5",
+               hard::figure(worst));
+}
+
+TEST(HardSummits, StandElsewhereWhenRowsAreTakenForLinearInLatitude) {
+  const Body& mars = kBodies[2];
+  const std::filesystem::path path = std::filesystem::path(GLOBE_DATA_DIR) / mars.file;
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "SAMPLE MAP MISSING: " << path;
+  const tests::TemporaryFolder folder;
+  const Map map = read_map(mars, path);
+  const auto thesis =
+      convert(mars, write_map(map, folder / "map.tif"), Filter::kNearest, folder / "planet", true);
+  int off = 0;
+  for (const Summit& summit : kMarsSummits) off += pixels_off(*thesis, map, summit_of(map, summit)) > 0.5;
+  EXPECT_GE(off, 5) << "of 6";
 }
 
 TEST(HardExtremes, OfTheEarthAreThoseOfItsMap) {
