@@ -48,7 +48,7 @@ compare() {  # name source width projection gdal_options globe_options...
       # shellcheck disable=SC2086
       measure "$name, level $level" $filter gdalwarp $run "$work/warped.tif" \
         gdalwarp -q -overwrite -t_srs "$projection" -ts $((4 * n)) $((2 * n)) -r $filter -multi -wo NUM_THREADS=ALL_CPUS $gdal \
-        -co TILED=YES -co BLOCKXSIZE=128 -co BLOCKYSIZE=128 -co COMPRESS=DEFLATE -co ZLEVEL=4 -co NUM_THREADS=ALL_CPUS \
+        -co TILED=YES -co BLOCKXSIZE=128 -co BLOCKYSIZE=128 -co COMPRESS=DEFLATE -co ZLEVEL=1 -co NUM_THREADS=ALL_CPUS \
         -co BIGTIFF=IF_SAFER "$source" "$work/warped.tif"
       echo "convert_speed.sh: $name, $filter, run $run of $runs" >&2
     done
