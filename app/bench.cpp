@@ -62,6 +62,7 @@ void run(const BenchOptions& options) {
   std::vector<BenchmarkEntry> entries = geometry_benchmarks();
   for (BenchmarkEntry& entry : cover_benchmarks()) entries.push_back(std::move(entry));
   for (BenchmarkEntry& entry : line_benchmarks()) entries.push_back(std::move(entry));
+  for (BenchmarkEntry& entry : convert_benchmarks()) entries.push_back(std::move(entry));
   for (BenchmarkEntry& entry : flight_benchmarks(options.rounds)) entries.push_back(std::move(entry));
   std::vector<Benchmark> chosen;
   for (const BenchmarkEntry& entry : entries) {

@@ -40,10 +40,11 @@ Interval median_interval(std::vector<double> values);
 std::vector<BenchmarkResult> run_interleaved(std::vector<Benchmark>& benchmarks, int rounds);
 
 /// What `globe bench` knows (app/bench_geometry.cpp, app/bench_cover.cpp, app/bench_lines.cpp,
-/// app/bench_flight.cpp).
+/// app/bench_convert.cpp, app/bench_flight.cpp).
 std::vector<BenchmarkEntry> geometry_benchmarks();
 std::vector<BenchmarkEntry> cover_benchmarks();
 std::vector<BenchmarkEntry> line_benchmarks();
+std::vector<BenchmarkEntry> convert_benchmarks();
 std::vector<BenchmarkEntry> flight_benchmarks(int rounds);
 
 }  // namespace app
