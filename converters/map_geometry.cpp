@@ -56,12 +56,16 @@ void close_circle(MapGeometry& map) {
   map.north_deg = 90.0 - 0.5 * map.north_shift * map.row_step_deg;
 }
 
-SamplePlace place_of(const MapGeometry& geometry, const SamplePoint& point) {
-  if (!(std::abs(point.x) < kFar && std::abs(point.y) < kFar))
+SamplePlace place_at(double x, double y) {
+  if (!(std::abs(x) < kFar && std::abs(y) < kFar))
     return {{SamplePlace::kNowhere, 0.0}, {SamplePlace::kNowhere, 0.0}};
-  if (geometry.factor == 1) return {split(point.x), split(point.y)};
+  return {split(x), split(y)};
+}
+
+SamplePlace place_of(const MapGeometry& geometry, const SamplePoint& point) {
+  if (geometry.factor == 1) return place_at(point.x, point.y);
   const double middle = 0.5 * (geometry.factor - 1);
-  return {split((point.x - middle) / geometry.factor), split((point.y - middle) / geometry.factor)};
+  return place_at((point.x - middle) / geometry.factor, (point.y - middle) / geometry.factor);
 }
 
 constexpr std::size_t kAtOnce = 1024;
@@ -97,7 +101,7 @@ void find_equirectangular(const MapGeometry& geometry, const globe::geo::dvec3* 
                           SamplePlace* out) {
   std::array<double, kAtOnce> x, y;
   equirectangular_coordinates(geometry, directions, count, x.data(), y.data());
-  for (std::size_t k = 0; k < count; ++k) out[k] = {split(x[k]), split(y[k])};
+  for (std::size_t k = 0; k < count; ++k) out[k] = place_at(x[k], y[k]);
 }
 
 }  // namespace

@@ -99,6 +99,8 @@ TEST(MapGeometry, EndsWherePartsOfThePlanetEnd) {
   }
   EXPECT_FALSE(is_on(pacific, place_of(pacific, globe::geo::normal_from_degrees(5.0, 169.9))));
   EXPECT_FALSE(is_on(pacific, place_of(pacific, globe::geo::normal_from_degrees(10.1, 175.0))));
+  const MapGeometry tiny = part_of(8, 8, {10, 20, 10 + 1e-9, 20 + 1e-9});  // far places have no sample number
+  EXPECT_FALSE(place_of(tiny, globe::geo::normal_from_degrees(-40.0, 100.0)).is_somewhere());
   EXPECT_THROW(part_of(10, 10, {0, 80, 10, 95}), globe::Error);
   EXPECT_THROW(part_of(10, 10, {0, 200, 300, 500}), globe::Error);
 }
