@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <cmath>
 #include <fstream>
@@ -149,6 +150,33 @@ TEST(OpenMap, PlacesRastersOfAnyProjectionWhereTheyLie) {
     }
     EXPECT_EQ(value_at(loaded.maps, -one.middle.lat_deg - 1, one.middle.lon_deg + 170, 8)[3], 0.0F)
         << one.crs;
+  }
+}
+
+TEST(OpenMap, GivesTheSameBitsOnAnyThreadsAndOnBothSidesOfABorder) {
+  const TemporaryFolder folder;
+  GeoTiff map;  // around the north pole, where all diamonds meet; a datum of its own
+  map.width = map.height = 500;
+  map.transform = {-2.5e6, 1e4, 0, 2.5e6, 0, -1e4};
+  map.crs = "+proj=stere +lat_0=90 +lat_ts=71 +lon_0=-45 +datum=NAD27 +units=m";
+  map.value = [](int x, int y, int) { return (x * 7919 + y * 104729) % 1000; };
+  map.write(folder / "map.tif");
+  for (const Filter filter : {Filter::kNearest, Filter::kBilinear, Filter::kBicubic, Filter::kArea}) {
+    Loaded loaded = load({folder / "map.tif"}, MapKind::kHeights, kEarth, filter);
+    const NodeGrid<float> whole = test::sample(loaded.maps, 7, loaded.budget);
+    EXPECT_EQ(test::broken_edges(whole), 0);
+    tbb::task_arena alone(1);
+    alone.execute([&] {
+      const NodeGrid<float> again = test::sample(loaded.maps, 7, loaded.budget);
+      test::for_each_node(whole, [&](const globe::planet::Node& node, float value) {
+        ASSERT_EQ(value, *again.at(node.d, node.i, node.j));
+      });
+    });
+    std::vector<float> part(9 * 11), weights(part.size());
+    sample_rect(loaded.maps, {2, 7, 3, 1, 9, 11}, Gaps::kFill, part.data(), weights.data());
+    for (int j = 0; j < 11; ++j)
+      for (int i = 0; i < 9; ++i)
+        ASSERT_EQ(part[static_cast<std::size_t>(j * 9 + i)], *whole.at(2, 3 + i, 1 + j));
   }
 }
 
