@@ -27,7 +27,8 @@ class VoidFill {
 
   void value(const SamplePlace& place, float* out) const;
 
-  /// A finished fill as bytes, to be loaded into a new one of the same map. The stream fails when it ends early.
+  /// A finished fill as bytes, to be loaded into a new one of the same map. The stream fails when it ends
+  /// early.
   void save(std::ostream& stream) const;
   void load(std::istream& stream, MemoryBudget& budget);
 

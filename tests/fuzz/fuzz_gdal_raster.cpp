@@ -7,8 +7,8 @@
 #include "tests/fuzz/scratch_file.h"
 
 /// A georeferenced raster of any bytes finds its place and is read to its end, or is refused. The first byte
-/// picks the file's kind by its name. Rasters that claim more than 1 MiB are left at their place: what decoding
-/// them costs is no fault.
+/// picks the file's kind by its name. Rasters that claim more than 1 MiB are left at their place: what
+/// decoding them costs is no fault.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fuzz::ScratchFile files[] = {fuzz::ScratchFile("map.tif"), fuzz::ScratchFile("map.asc"),
                                             fuzz::ScratchFile("map.vrt"), fuzz::ScratchFile("map.dt0"),
