@@ -40,6 +40,23 @@ std::uint64_t nodes_of(const globe::planet::LayerInfo& layer) {
   return globe::planet::kDiamonds * side * side;
 }
 
+std::uint64_t bytes_of(const globe::planet::StoredInset& inset) {
+  std::uint64_t bytes = 0;
+  for (const auto& block : inset.files)
+    for (const globe::planet::StoredFile& file : block) bytes += file.bytes;
+  return bytes;
+}
+
+/// Nodes in the blocks of an inset, at its level.
+std::uint64_t nodes_of(const globe::planet::InsetInfo& inset) {
+  std::uint64_t nodes = 0;
+  for (const globe::planet::InsetBlock& block : inset.blocks) {
+    nodes += static_cast<std::uint64_t>(block.i1 - block.i0 + 1) *
+             static_cast<std::uint64_t>(block.j1 - block.j0 + 1);
+  }
+  return nodes;
+}
+
 /// Pixels of the map that is as fine along the equator: 4n x 2n.
 double map_pixels_of(const globe::planet::LayerInfo& layer) {
   const double n = globe::planet::nodes_per_side(layer.level);
@@ -78,6 +95,17 @@ ordered_json to_json(const globe::planet::PlanetFile& file, const std::optional<
          {"bytes", bytes_of(layer)}});
     bytes += bytes_of(layer);
   }
+  ordered_json insets = ordered_json::array();
+  for (const globe::planet::StoredInset& inset : file.insets) {
+    insets.push_back({{"name", inset.info.name},
+                      {"layer", inset.info.layer},
+                      {"level", inset.info.level},
+                      {"min", inset.info.min},
+                      {"max", inset.info.max},
+                      {"nodes", nodes_of(inset.info)},
+                      {"bytes", bytes_of(inset)}});
+    bytes += bytes_of(inset);
+  }
   return {{"name", info.name},
           {"body", info.body},
           {"id", info.id},
@@ -87,6 +115,7 @@ ordered_json to_json(const globe::planet::PlanetFile& file, const std::optional<
           {"extent", {-180, -90, 180, 90}},
           {"bytes", bytes},
           {"layers", layers},
+          {"insets", insets},
           {"credits", info.credits}};
 }
 
@@ -130,6 +159,12 @@ void print_text(const ordered_json& info) {
         layer["level"].get<int>(), layer["channels"].get<int>(), layer["storage"].get<std::string>().c_str(),
         layer["min"].get<double>(), mean.c_str(), layer["max"].get<double>(), layer["nodes"].get<double>(),
         static_cast<unsigned long long>(layer["bytes"].get<std::uint64_t>()));
+  }
+  for (const ordered_json& inset : info["insets"]) {
+    std::printf("inset      %s: %s, level %d, %.3f to %.3f, %llu bytes\n",
+                inset["name"].get<std::string>().c_str(), inset["layer"].get<std::string>().c_str(),
+                inset["level"].get<int>(), inset["min"].get<double>(), inset["max"].get<double>(),
+                static_cast<unsigned long long>(inset["bytes"].get<std::uint64_t>()));
   }
   print_samples(info["layers"]);
   for (const ordered_json& credit : info["credits"])

@@ -115,8 +115,8 @@ void add_inset(CLI::App& program) {
       ->check(CLI::Range(0, 24));
   command->add_option(
       "--rim", arguments->rim,
-      "how wide it is blended into what lies around and below, such as 2km (default: a sixteenth of "
-      "its width)");
+      "how wide it is blended into what lies around, such as 2km (default: a sixteenth of its width, up to "
+      "a quarter where it lies far above or below the planet)");
   command
       ->add_option("--filter", arguments->filter,
                    "default: area where the map is finer than the grid, else bilinear")

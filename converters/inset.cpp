@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <thread>
@@ -19,6 +20,7 @@
 #include "converters/report.h"
 #include "globe/base/error.h"
 #include "globe/planet/planet_file.h"
+#include "globe/planet/surface.h"
 
 namespace converters {
 namespace {
@@ -135,6 +137,30 @@ std::vector<InsetGrid<float>> sample_maps(const MapStack& maps, int level,
   return grids;
 }
 
+/// A sixteenth of the width of the data; more where heights lie so far from what is below them that the blend
+/// would be steep, up to a quarter. Nodes.
+int fitting_rim(const fs::path& folder, const Plan& plan, const InsetGrid<float>& values, std::size_t data,
+                double edge_m) {
+  constexpr double kRunOverRise = 6.0;  // then the blend is no steeper than 1 in 4
+  const double width = std::sqrt(static_cast<double>(data));
+  double rim = width / 16.0;
+  if (plan.layer == "height") {
+    const auto surface = globe::planet::Surface::from_dataset(std::make_shared<const globe::planet::Dataset>(
+        globe::planet::Dataset::open(folder, std::size_t{32} << 20)));
+    double squares = 0.0;
+    std::size_t count = 0, passed = 0;
+    const std::size_t step = data / 20000 + 1;
+    for_each_vertex(values, [&](const globe::planet::Node& node) {
+      const float height = values.get(node);
+      if (std::isnan(height) || passed++ % step != 0) return;
+      squares += std::pow(static_cast<double>(height) - surface->data_height(node), 2.0);
+      ++count;
+    });
+    rim = std::max(rim, kRunOverRise * std::sqrt(squares / static_cast<double>(count)) / edge_m);
+  }
+  return static_cast<int>(std::clamp(std::min(rim, width / 4.0), 8.0, 512.0));
+}
+
 StoredInset make_layer(const InsetOptions& options, const PlanetFile& planet, Plan& plan,
                        std::size_t memory_bytes, std::vector<fs::path>& made, const Report& report) {
   const int level = plan.maps.level;
@@ -159,9 +185,8 @@ StoredInset make_layer(const InsetOptions& options, const PlanetFile& planet, Pl
     throw globe::Error(options.name, "no node of the planet lies in its data", "look at the file");
   const double edge_m = std::ldexp(planet.info.ellipsoid.mean_radius() * std::numbers::pi / 2.0, -level);
   ShapeRule rule;
-  rule.rim = options.rim_m
-                 ? static_cast<int>(std::lround(std::clamp(*options.rim_m / edge_m, 4.0, 4096.0)))
-                 : std::clamp(static_cast<int>(std::sqrt(static_cast<double>(data)) / 16.0), 8, 256);
+  rule.rim = options.rim_m ? static_cast<int>(std::lround(std::clamp(*options.rim_m / edge_m, 4.0, 4096.0)))
+                           : fitting_rim(options.planet, plan, grids.front(), data, edge_m);
   rule.widest_gap = std::ldexp(1.0, level - plan.below);
   ShapeReport shape;
   const InsetSamples samples = shape_inset(std::move(grids), rule, shape);

@@ -16,6 +16,7 @@
 #include "globe/planet/grid.h"
 #include "globe/planet/mean_height.h"
 #include "globe/planet/planet_file.h"
+#include "globe/planet/verify_insets.h"
 
 namespace globe::planet {
 namespace {
@@ -316,12 +317,18 @@ Verification verify_planet(const std::filesystem::path& folder, std::size_t cach
   Verification result;
   progress("checksums", 0.0);
   result.damage = find_damage(folder);
-  for (const StoredLayer& layer : read_planet_file(folder).layers) result.files += layer.files.size();
+  const PlanetFile planet = read_planet_file(folder);
+  for (const StoredLayer& layer : planet.layers) result.files += layer.files.size();
+  for (const StoredInset& inset : planet.insets) {
+    for (const std::vector<StoredFile>& block : inset.files) result.files += block.size();
+  }
   ++result.files;  // planet.json itself
   const Dataset data = Dataset::open(folder, cache_bytes);
   Findings findings;
   result.nodes = Verifier(data, findings, progress).run();
   for (std::string& line : findings.lines()) result.damage.push_back(std::move(line));
+  progress("insets", 0.0);
+  for (std::string& line : inset_damage(data, result.nodes)) result.damage.push_back(std::move(line));
   return result;
 }
 

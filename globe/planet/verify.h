@@ -24,6 +24,7 @@ struct Verification {
 /// - A coarse height is the fine height of the same node.
 /// - height_range holds the heights of its cells, height_mean lies within; the finest heights span what
 ///   planet.json says.
+/// - The samples of insets: verify_insets.h.
 ///
 /// @param progress  hears of the stage and the share done, from any thread, not at once
 /// Throws Error when there is no planet to look at: see Dataset::open.
