@@ -43,9 +43,13 @@ class Findings {
     all.erase(std::unique(all.begin(), all.end()), all.end());
     for (const auto& [key, place] : places_) {
       const auto& [layer, minus_level, d, what] = key;
-      all.push_back(layer + ", level " + std::to_string(-minus_level) + ", diamond " + std::to_string(d) +
-                    ": " + std::to_string(place.count) + " " + what + ", the first at " +
-                    std::to_string(place.first.second) + ", " + std::to_string(place.first.first));
+      std::string line = layer;
+      line += ", level " + std::to_string(-minus_level) + ", diamond " + std::to_string(d);
+      line += ": " + std::to_string(place.count) + " ";
+      line += what;
+      line += ", the first at " + std::to_string(place.first.second);
+      line += ", " + std::to_string(place.first.first);
+      all.push_back(line);
     }
     return all;
   }
