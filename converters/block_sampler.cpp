@@ -76,35 +76,53 @@ void BlockSampler::sample_pole(int i, int j, float* values, float* weights) cons
                                : row_mean(map_, north ? 0 : geometry_.height - 1, out));
 }
 
-/// Footprints of all nodes. Those on the block's rim have trixels outside it and take the long way.
+/// Footprints of all nodes. Those on the diamond's border have other names and take the long way.
 void BlockSampler::find_footprints() {
-  const int i_end = nodes_.i0() + nodes_.side(), j_end = nodes_.j0() + nodes_.side();
-  std::vector<dvec3> centres;  // of both trixels of every cell: the one with the cell's first node, the other
-  for (int j = nodes_.j0(); j < j_end; ++j) {
-    for (int i = nodes_.i0(); i < i_end; ++i) {
-      const dvec3& a = nodes_.at(i + 1, j);
-      const dvec3& b = nodes_.at(i, j + 1);
-      centres.push_back(trixel_centre(nodes_.at(i, j), a, b));
-      centres.push_back(trixel_centre(nodes_.at(i + 1, j + 1), b, a));
-    }
-  }
-  centres_.resize(centres.size());
-  find_places(geometry_, centres.data(), centres.size(), footprint_reach(nodes_.level()), centres_.data());
+  find_centres();
+  const int n = nodes_per_side(nodes_.level());
   footprints_.resize(places_.size());
   for (int j = part_.j0; j < part_.j0 + part_.nj; ++j) {
     for (int i = part_.i0; i < part_.i0 + part_.ni; ++i) {
       if (is_round_pole(i, j) || !places_[part_.index(i, j)].is_somewhere()) continue;
-      const bool inside = i > nodes_.i0() && j > nodes_.j0() && i < i_end && j < j_end;
+      const bool inside = i > 0 && j > 0 && i < n && j < n;
       footprints_[part_.index(i, j)] =
           inside ? inner_footprint(i, j) : footprint_of(geometry_, {nodes_.diamond(), nodes_.level(), i, j});
     }
   }
 }
 
+/// The places of the centres of the trixels around the part's nodes, as far as they lie in the diamond: cell
+/// by cell the one with the cell's first node, then the other.
+void BlockSampler::find_centres() {
+  const int n = nodes_per_side(nodes_.level());
+  const auto first = [](int at) { return std::max(0, at - 1); };
+  const auto cells = [n, first](int at, int count) { return std::min(n, at + count) - first(at); };
+  cells_ = {first(part_.i0), first(part_.j0), cells(part_.i0, part_.ni), cells(part_.j0, part_.nj)};
+  const BlockPart corners{cells_.i0, cells_.j0, cells_.ni + 1, cells_.nj + 1};
+  std::vector<dvec3> directions(corners.size());
+  for (int j = corners.j0; j < corners.j0 + corners.nj; ++j) {
+    for (int i = corners.i0; i < corners.i0 + corners.ni; ++i) {
+      directions[corners.index(i, j)] =
+          nodes_.holds(i, j) ? nodes_.at(i, j)
+                             : globe::planet::node_direction({nodes_.diamond(), nodes_.level(), i, j});
+    }
+  }
+  std::vector<dvec3> centres;
+  centres.reserve(2 * cells_.size());
+  for (int j = cells_.j0; j < cells_.j0 + cells_.nj; ++j) {
+    for (int i = cells_.i0; i < cells_.i0 + cells_.ni; ++i) {
+      const dvec3& a = directions[corners.index(i + 1, j)];
+      const dvec3& b = directions[corners.index(i, j + 1)];
+      centres.push_back(trixel_centre(directions[corners.index(i, j)], a, b));
+      centres.push_back(trixel_centre(directions[corners.index(i + 1, j + 1)], b, a));
+    }
+  }
+  centres_.resize(centres.size());
+  find_places(geometry_, centres.data(), centres.size(), footprint_reach(nodes_.level()), centres_.data());
+}
+
 Footprint BlockSampler::inner_footprint(int i, int j) const {
-  const auto first = [&](int ci, int cj) -> const SamplePlace& {
-    return centres_[static_cast<std::size_t>(2 * ((cj - nodes_.j0()) * nodes_.side() + (ci - nodes_.i0())))];
-  };
+  const auto first = [&](int ci, int cj) -> const SamplePlace& { return centres_[2 * cells_.index(ci, cj)]; };
   const auto second = [&](int ci, int cj) -> const SamplePlace& { return (&first(ci, cj))[1]; };
   return make_footprint(geometry_, places_[part_.index(i, j)],
                         {first(i, j), second(i - 1, j), first(i - 1, j), second(i - 1, j - 1),

@@ -46,6 +46,7 @@ class BlockSampler {
   bool is_round_pole(int i, int j) const;
   void sample_pole(int i, int j, float* values, float* weights) const;
   void find_footprints();
+  void find_centres();
   Footprint inner_footprint(int i, int j) const;
   void sample(const BlockPart& part, float* values, float* weights);
   void sample_window(const BlockPart& part, float* values, float* weights);
@@ -60,6 +61,7 @@ class BlockSampler {
   const NodeBlock& nodes_;
   BlockPart part_;
   std::vector<SamplePlace> places_;
+  BlockPart cells_{};  ///< whose centres are known
   std::vector<SamplePlace> centres_;
   std::vector<Footprint> footprints_;
   Window window_;

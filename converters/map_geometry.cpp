@@ -11,6 +11,7 @@
 #include "globe/base/bit_select.h"
 #include "globe/base/error.h"
 #include "globe/geo/arctangent.h"
+#include "globe/geo/sine_cosine.h"
 
 namespace converters {
 namespace {
@@ -254,6 +255,20 @@ double latitude_of(const MapGeometry& geometry, double y) {
   const double lat = std::clamp(geometry.north_deg - y * geometry.row_step_deg, -90.0, 90.0);
   if (geometry.latitude == Latitude::kGeodetic || std::abs(lat) == 90.0) return lat;
   return std::atan(std::tan(lat * kDegree) / (geometry.one_minus_f * geometry.one_minus_f)) / kDegree;
+}
+
+GLOBE_FOR_EVERY_VECTOR_WIDTH
+void row_weights(const MapGeometry& geometry, const double* y, std::size_t count, double* out) {
+  if (geometry.projection || geometry.latitude == Latitude::kGeocentric) {
+    for (std::size_t k = 0; k < count; ++k) out[k] = row_weight(geometry, y[k]);
+    return;
+  }
+  const double north = geometry.north_deg, step = geometry.row_step_deg;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double lat = north - y[k] * step;
+    const double above = globe::select(globe::mask_of(lat > 90.0), 90.0, lat);
+    out[k] = globe::geo::sine_cosine(globe::select(globe::mask_of(above < -90.0), -90.0, above)).cosine;
+  }
 }
 
 double row_weight(const MapGeometry& geometry, double y) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -91,6 +92,9 @@ double latitude_of(const MapGeometry& geometry, double y);
 
 /// Area of a sample of a row, up to a factor that all rows of the map share.
 double row_weight(const MapGeometry& geometry, double y);
+
+/// The same of many.
+void row_weights(const MapGeometry& geometry, const double* y, std::size_t count, double* out);
 
 /// Column and row inside the map of any column and row; rows at most one map height beyond a pole.
 /// REQUIRES: a map that goes all around.

@@ -20,6 +20,7 @@ class NodeBlock {
   int j0() const { return j0_; }
   int side() const { return side_; }
 
+  bool holds(int i, int j) const { return i >= i0_ && j >= j0_ && i <= i0_ + side_ && j <= j0_ + side_; }
   const globe::planet::dvec3& at(int i, int j) const {
     return directions_[static_cast<std::size_t>((j - j0_) * (side_ + 1) + (i - i0_))];
   }
