@@ -115,8 +115,9 @@ void add_inset(CLI::App& program) {
       ->check(CLI::Range(0, 24));
   command->add_option(
       "--rim", arguments->rim,
-      "how wide it is blended into what lies around, such as 2km (default: a sixteenth of its width, up to "
-      "a quarter where it lies far above or below the planet)");
+      "how wide it is blended into what lies around, such as 2km (default: eight times as wide as its "
+      "heights "
+      "are from the planet's on average, at most a quarter of its width; of colors a sixteenth)");
   command
       ->add_option("--filter", arguments->filter,
                    "default: area where the map is finer than the grid, else bilinear")

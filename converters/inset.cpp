@@ -137,13 +137,13 @@ std::vector<InsetGrid<float>> sample_maps(const MapStack& maps, int level,
   return grids;
 }
 
-/// A sixteenth of the width of the data; more where heights lie so far from what is below them that the blend
-/// would be steep, up to a quarter. Nodes.
+/// Nodes. Of heights so wide that the blend adds a slope of 1 in 5 where they lie as far from what is below
+/// them as on average; of colors a sixteenth of the width of the data. At most a quarter of that width.
 int fitting_rim(const fs::path& folder, const Plan& plan, const InsetGrid<float>& values, std::size_t data,
                 double edge_m) {
-  constexpr double kRunOverRise = 6.0;  // then the blend is no steeper than 1 in 4
+  constexpr double kRunOverRise = 8.0;
   const double width = std::sqrt(static_cast<double>(data));
-  double rim = width / 16.0;
+  double rim = std::min(width / 16.0, 256.0);
   if (plan.layer == "height") {
     const auto surface = globe::planet::Surface::from_dataset(std::make_shared<const globe::planet::Dataset>(
         globe::planet::Dataset::open(folder, std::size_t{32} << 20)));
@@ -156,9 +156,9 @@ int fitting_rim(const fs::path& folder, const Plan& plan, const InsetGrid<float>
       squares += std::pow(static_cast<double>(height) - surface->data_height(node), 2.0);
       ++count;
     });
-    rim = std::max(rim, kRunOverRise * std::sqrt(squares / static_cast<double>(count)) / edge_m);
+    rim = std::max(16.0, kRunOverRise * std::sqrt(squares / static_cast<double>(count)) / edge_m);
   }
-  return static_cast<int>(std::clamp(std::min(rim, width / 4.0), 8.0, 512.0));
+  return static_cast<int>(std::clamp(std::min(rim, width / 4.0), 8.0, 4096.0));
 }
 
 StoredInset make_layer(const InsetOptions& options, const PlanetFile& planet, Plan& plan,

@@ -17,8 +17,8 @@ struct InsetOptions {
   std::string name;
   std::optional<int> level;      ///< of the heights; of the colors when there are no heights
   std::optional<Filter> filter;  ///< default: as for conversion
-  std::optional<double> rim_m;   ///< width of the rim; default: a sixteenth of the width of the data, up to a
-                                 ///< quarter where they lie far above or below the planet's own
+  std::optional<double>
+      rim_m;  ///< width of the rim; default: eight times the mean distance of heights from what lies below
   std::vector<std::string> credits;
   std::size_t memory_bytes = 0;  ///< as for conversion; what does not fit is refused
   int threads = 0;               ///< 0: all cores

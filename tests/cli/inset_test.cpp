@@ -166,7 +166,7 @@ TEST_F(InsetCommand, AFullDiskLeavesThePlanetAsItWas) {
 
 TEST_F(InsetCommand, KilledAtAnyMomentThePlanetIsTheOldOrTheNewOne) {
   const json old = json::parse(run_program({"info", planet_, "--json"}).out);
-  const int kills = std::getenv("GLOBE_TEST_FULL") != nullptr ? 200 : 10;
+  const int kills = std::getenv("GLOBE_TEST_FULL") != nullptr ? 200 : 6;
   for (int k = 0; k < kills; ++k) {
     const pid_t child = cli::start({"inset", planet_, dem_, "--overwrite", "--quiet"}, folder_.path());
     std::this_thread::sleep_for(std::chrono::milliseconds(20 + 37 * k % 300));
