@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kLeastChunk = 16;
 constexpr int kMostChunk = 512;
+constexpr int kSamplesAtOnce = 1 << 20;  ///< of a band, read by one call
 
 GDALDataType gdal_type(SampleType type) {
   switch (type) {
@@ -137,6 +138,8 @@ GdalSource::GdalSource(std::string path, DatasetHandle dataset, const ReadingRul
   dataset_->GetRasterBand(bands_.front())->GetBlockSize(&block_width, &block_height);
   chunk_rows_ = std::clamp(block_height, std::min(kLeastChunk, info_.height),
                            std::max(1, std::min(kMostChunk, info_.height)));
+  const int at_once = kSamplesAtOnce / chunk_rows_ / block_width * block_width;
+  chunk_columns_ = std::clamp(at_once, std::min(block_width, info_.width), info_.width);
 }
 
 void GdalSource::choose_bands(const ReadingRule& rule) {
@@ -279,7 +282,12 @@ void GdalSource::read_chunk() {
       for (std::size_t c = 0; c < 3; ++c) chunk_[k * channels + c] = static_cast<std::byte>(parts[c]);
     }
   } else {
-    for (std::size_t c = 0; c < bands_.size(); ++c) read_band(bands_[c], chunk_first_, chunk_count_, c);
+    // By columns of blocks: GDAL goes line by line, and would decode blocks again that its cache does not
+    // hold.
+    for (int x = 0; x < info_.width; x += chunk_columns_) {
+      const int width = std::min(chunk_columns_, info_.width - x);
+      for (std::size_t c = 0; c < bands_.size(); ++c) read_band(bands_[c], x, width, c);
+    }
   }
   if (info_.has_mask) read_mask(chunk_first_, chunk_count_, channels - 1);
   if (!signed_bytes_) return;
@@ -290,32 +298,39 @@ void GdalSource::read_chunk() {
   }
 }
 
-void GdalSource::read_band(int band, int y, int rows, std::size_t channel) {
+/// Columns x .. x + width - 1 of the chunk.
+void GdalSource::read_band(int band, int x, int width, std::size_t channel) {
   const std::size_t size = size_of(info_.type);
   const std::size_t stride = static_cast<std::size_t>(info_.channels) * size;
+  const std::size_t line = stride * static_cast<std::size_t>(info_.width);
   GDALRasterBand* from = dataset_->GetRasterBand(band);
   const bool wide = info_.type == SampleType::kFloat && from->GetRasterDataType() != GDT_Float32;
-  std::byte* to = chunk_.data() + channel * size;
-  const auto samples = static_cast<std::size_t>(info_.width) * static_cast<std::size_t>(rows);
-  std::vector<double> values(wide ? samples : 0);
-  const CPLErr result = wide ? from->RasterIO(GF_Read, 0, y, info_.width, rows, values.data(), info_.width,
-                                              rows, GDT_Float64, 0, 0, nullptr)
-                             : from->RasterIO(GF_Read, 0, y, info_.width, rows, to, info_.width, rows,
-                                              gdal_type(info_.type), static_cast<GSpacing>(stride),
-                                              static_cast<GSpacing>(stride) * info_.width, nullptr);
+  std::byte* to = chunk_.data() + static_cast<std::size_t>(x) * stride + channel * size;
+  const auto columns = static_cast<std::size_t>(width);
+  std::vector<double> values(wide ? columns * static_cast<std::size_t>(chunk_count_) : 0);
+  const CPLErr result =
+      wide ? from->RasterIO(GF_Read, x, chunk_first_, width, chunk_count_, values.data(), width, chunk_count_,
+                            GDT_Float64, 0, 0, nullptr)
+           : from->RasterIO(GF_Read, x, chunk_first_, width, chunk_count_, to, width, chunk_count_,
+                            gdal_type(info_.type), static_cast<GSpacing>(stride), static_cast<GSpacing>(line),
+                            nullptr);
   if (result != CE_None) fail(first_failure());
   if (info_.type != SampleType::kFloat) return;
   // Numbers too wide for a float are compared before they are rounded to one.
   const std::optional<double> nodata = nodata_[channel];
-  for (std::size_t k = 0; k < samples; ++k) {
-    float value = 0;
-    if (wide) {
-      value = nodata && values[k] == *nodata ? NAN : static_cast<float>(values[k]);
-    } else {
-      std::memcpy(&value, to + k * stride, size);
-      if (nodata && value == static_cast<float>(*nodata)) value = NAN;
+  for (std::size_t y = 0; y < static_cast<std::size_t>(chunk_count_); ++y) {
+    for (std::size_t k = 0; k < columns; ++k) {
+      std::byte* at = to + y * line + k * stride;
+      float value = 0;
+      if (wide) {
+        const double number = values[y * columns + k];
+        value = nodata && number == *nodata ? NAN : static_cast<float>(number);
+      } else {
+        std::memcpy(&value, at, size);
+        if (nodata && value == static_cast<float>(*nodata)) value = NAN;
+      }
+      std::memcpy(at, &value, size);
     }
-    std::memcpy(to + k * stride, &value, size);
   }
 }
 

@@ -55,7 +55,7 @@ class GdalSource : public RasterSource {
   void choose_bands(const ReadingRule& rule);
   void describe(const ReadingRule& rule);
   void read_chunk();
-  void read_band(int band, int y, int rows, std::size_t channel);
+  void read_band(int band, int x, int width, std::size_t channel);
   void read_mask(int y, int rows, std::size_t channel);
   [[noreturn]] void fail(const std::string& why) const;
 
@@ -71,7 +71,7 @@ class GdalSource : public RasterSource {
   bool signed_bytes_ = false;
   bool file_mask_ = false;  ///< the mask is the file's own, else it says where all bands are nodata
   int next_row_ = 0;
-  int chunk_rows_ = 1;
+  int chunk_rows_ = 1, chunk_columns_ = 1;
   int chunk_first_ = 0, chunk_count_ = 0;
   std::vector<std::byte> chunk_;
 };

@@ -12,7 +12,7 @@
 namespace converters {
 namespace {
 
-constexpr GIntBig kBlockCacheBytes = GIntBig{48} << 20;
+constexpr GIntBig kBlockCacheBytes = GIntBig{32} << 20;
 
 thread_local std::string the_first_failure;
 
