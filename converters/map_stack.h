@@ -28,10 +28,6 @@ class MapStack {
   /// REQUIRES: not empty.
   int channels() const { return entries_.front().map->channels(); }
 
-  void drop_pages() const {
-    for (const Entry& entry : entries_) entry.map->drop_pages();
-  }
-
  private:
   std::vector<Entry> entries_;
 };

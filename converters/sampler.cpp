@@ -14,7 +14,7 @@ namespace {
 using globe::planet::nodes_per_side;
 
 constexpr int kBlockSide = 64;
-constexpr int kBlocksBetweenDrops = 16;
+constexpr int kBlocksBetweenReports = 16;
 
 /// Values and weights of some nodes of one block.
 struct Samples {
@@ -101,7 +101,6 @@ void sample_nodes(const MapStack& maps, const NodeRect& rect, Gaps gaps, const R
   const BlockRange down = blocks_of(rect.j0, rect.j0 + rect.nj - 1, side, n);
   const auto channels = static_cast<std::size_t>(maps.channels());
   std::atomic<int> done = 0;
-  static std::atomic<unsigned> sampled = 0;  // rectangles may be smaller than what pages are dropped after
   // Along i first: rows of one diamond then cross the map from north to south, and what is read of it at a
   // time is a band.
   tbb::parallel_for(0, across.count * down.count, [&](int block) {
@@ -116,10 +115,7 @@ void sample_nodes(const MapStack& maps, const NodeRect& rect, Gaps gaps, const R
       sink(i, row, ni, samples.values.data() + first * channels, samples.weights.data() + first);
     }
     const int now = ++done;
-    if (++sampled % kBlocksBetweenDrops == 0) maps.drop_pages();
-    if (now % kBlocksBetweenDrops == 0) {
-      progress(double(now) / (across.count * down.count));
-    }
+    if (now % kBlocksBetweenReports == 0) progress(double(now) / (across.count * down.count));
   });
 }
 

@@ -59,13 +59,12 @@ class SourceMap {
   /// Share of the map's area that is void, 0 to 1.
   double void_share() const { return void_share_; }
 
-  /// Fills window.values for the window's rectangle.
+  /// Fills window.values for the window's rectangle. Lets go of pages in memory now and then when the map
+  /// lies in a file.
   void read(Window& window) const;
 
   /// Value for a place in a void, from the valid samples around it. Only when has_voids().
   void fill(const SamplePlace& place, float* out) const { fill_->value(place, out); }
-
-  void drop_pages() const { samples_.drop_pages(); }
 
  private:
   /// Samples beside one another of a window's row that lie so in the buffer too, or off the map.
@@ -76,6 +75,7 @@ class SourceMap {
   };
   Run run_at(int x, int y, int most) const;
   void read_run(int x, int y, int count, float* out) const;
+  void let_go_of(const Window& window) const;
   void count_voids(MemoryBudget& budget);
   /// False when there is nothing whole there.
   bool take(const Spool& spool, std::size_t bytes, MemoryBudget& budget);
@@ -89,6 +89,7 @@ class SourceMap {
   SampleType stored_;    ///< kUint8, kUint16 and kInt16 go through decode_, kFloat holds values (void: NaN)
   std::vector<float> decode_;
   Buffer samples_;
+  mutable std::size_t touched_ = 0;  ///< bytes of it read since its pages were let go
   std::optional<VoidFill> fill_;
   double void_share_ = 0;
 };
