@@ -30,9 +30,9 @@ namespace {
 
 using globe::geo::Ellipsoid;
 
-/// Of the memory cap: what the program takes before it holds any map (seen 128 MB, its libraries), decoders
+/// Of the memory cap: what the program takes before it holds any map (seen 140 MB, its libraries), decoders
 /// and windows.
-constexpr std::size_t kReservedBytes = std::size_t{160} << 20;
+constexpr std::size_t kReservedBytes = std::size_t{176} << 20;
 
 /// What one job takes while it runs: the values of its columns, and a window of the map.
 constexpr std::size_t kJobBytes = std::size_t{48} << 20;
@@ -165,7 +165,9 @@ class Conversion {
     const bool heights = task.layer.kind == MapKind::kHeights;
     const std::unique_ptr<const Geoid> geoid = heights ? open_geoid() : nullptr;
     const SpoolFolder spools{output_.parts().folder, sharing_ == OutputFolder::Sharing::kInTeam};
-    const MapStack maps = load_layer(task.layer, budget_, report_, spools);
+    const MapStack maps =
+        load_layer(task.layer, budget_, report_,
+                   options_.voids == Gaps::kFill ? "filled from around it" : "set to 0", spools);
     std::atomic<double> done = static_cast<double>(std::count_if(
         task.jobs.begin(), task.jobs.end(), [&](const Job& job) { return output_.done(job).has_value(); }));
     const NodeSource nodes = [&](const NodeRect& rect, const RowSink& sink) {

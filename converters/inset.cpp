@@ -174,7 +174,8 @@ StoredInset make_layer(const InsetOptions& options, const PlanetFile& planet, Pl
                        "take fewer or coarser data, a lower --level, or more --memory");
   }
   MemoryBudget budget{memory_bytes / 2, options.planet};
-  const MapStack maps = load_layer(plan.maps, budget, report);
+  const MapStack maps =
+      load_layer(plan.maps, budget, report, "filled where narrow, else showing the ground below");
   std::vector<InsetGrid<float>> grids =
       sample_maps(maps, level, blocks, report.stage(plan.layer + " sampling"));
   std::size_t data = 0;

@@ -187,7 +187,7 @@ std::filesystem::path spool_file(const SpoolFolder& spools, MapKind kind, std::s
 }
 
 MapStack load_layer(PlannedLayer& layer, MemoryBudget& budget, const Report& report,
-                    const SpoolFolder& spools) {
+                    const std::string& fate_of_voids, const SpoolFolder& spools) {
   MapStack maps;
   for (std::size_t k = 0; k < layer.maps.size(); ++k) {
     PlannedMap& map = layer.maps[k];
@@ -202,7 +202,7 @@ MapStack load_layer(PlannedLayer& layer, MemoryBudget& budget, const Report& rep
       std::snprintf(share, sizeof share, "%.4g %%", 100.0 * source->void_share());
       report.warning(what(layer.kind) + " " + name + ": " + share + " of the " +
                      (map.opened.geometry.is_whole_planet() ? "surface" : "map") + " is void, " +
-                     (layer.maps.size() > 1 ? "showing the maps below or " : "") + "filled from around it");
+                     (layer.maps.size() > 1 ? "showing the maps below or " : "") + fate_of_voids);
     }
     maps.add(std::move(source), map.filter);
   }

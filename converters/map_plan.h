@@ -52,8 +52,9 @@ struct SpoolFolder {
   std::filesystem::path path;
   bool always = false;
 };
+/// @param fate_of_voids  what the warning of voids says becomes of them
 MapStack load_layer(PlannedLayer& layer, MemoryBudget& budget, const Report& report,
-                    const SpoolFolder& spools = {});
+                    const std::string& fate_of_voids, const SpoolFolder& spools = {});
 
 /// Where load_layer leaves the samples of a layer's map.
 std::filesystem::path spool_file(const SpoolFolder& spools, MapKind kind, std::size_t map);

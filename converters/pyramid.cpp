@@ -27,7 +27,7 @@ using globe::planet::Node;
 template <typename From, typename To, typename Body>
 void for_each_row(const NodeGrid<From>& from, const NodeGrid<To>& to, const Body& body) {
   constexpr int kRowsATask = 16;
-  constexpr int kTasksBetweenDrops = 16;
+  constexpr int kTasksBetweenDrops = 2;
   const int side = to.side();
   std::atomic<int> tasks = 0;
   const tbb::blocked_range<int> all(0, kDiamonds * side, kRowsATask);

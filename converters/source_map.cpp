@@ -269,12 +269,13 @@ void SourceMap::read(Window& window) const {
   let_go_of(window);
 }
 
-/// What a window reads of a row is counted as whole pages.
+/// What a window reads of a row brings in the pages around it: the kernel maps 64 KiB at a fault when the
+/// file is in its cache.
 void SourceMap::let_go_of(const Window& window) const {
-  constexpr std::size_t kPage = 4096, kMost = std::size_t{32} << 20;
+  constexpr std::size_t kAround = 65536, kMost = std::size_t{32} << 20;
   const std::size_t row =
       static_cast<std::size_t>(window.width) * static_cast<std::size_t>(stored_channels_) * size_of(stored_);
-  const std::size_t bytes = static_cast<std::size_t>(window.height) * (row + kPage);
+  const std::size_t bytes = static_cast<std::size_t>(window.height) * (row + kAround);
   const std::atomic_ref<std::size_t> touched(touched_);
   if (touched.fetch_add(bytes) + bytes < kMost) return;
   touched = 0;
