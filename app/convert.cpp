@@ -4,13 +4,13 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
-#include <map>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "app/commands.h"
+#include "app/converter_command.h"
 #include "app/map_options.h"
 #include "app/mpi_team.h"
 #include "app/parse_options.h"
@@ -48,10 +48,6 @@ struct Arguments {
 };
 
 converters::ConvertOptions options_from(const Arguments& arguments) {
-  static const std::map<std::string, converters::Filter> filters{{"nearest", converters::Filter::kNearest},
-                                                                 {"bilinear", converters::Filter::kBilinear},
-                                                                 {"bicubic", converters::Filter::kBicubic},
-                                                                 {"area", converters::Filter::kArea}};
   converters::ConvertOptions options;
   options.heights = maps_of(arguments.heights);
   options.colors = maps_of(arguments.colors);
@@ -61,7 +57,7 @@ converters::ConvertOptions options_from(const Arguments& arguments) {
   apply_map_options(arguments.of_maps, options.heights, options.colors);
   options.planet = arguments.planet;
   if (arguments.level >= 0) options.level = arguments.level;
-  if (!arguments.filter.empty()) options.filter = filters.at(arguments.filter);
+  if (!arguments.filter.empty()) options.filter = filter_named(arguments.filter);
   if (!arguments.ellipsoid.empty()) options.ellipsoid = parse_ellipsoid(arguments.ellipsoid);
   options.latitude =
       arguments.latitude == "geodetic" ? converters::Latitude::kGeodetic : converters::Latitude::kGeocentric;
@@ -97,14 +93,7 @@ void convert_with_mpi(converters::ConvertOptions options, const converters::Conv
 void convert(const Arguments& arguments) {
   const converters::ConvertOptions options = options_from(arguments);
   Progress progress(progress_style(arguments.quiet, arguments.progress == "json"));
-  const auto print = [&](const std::string& text) {
-    progress.clear();
-    std::fprintf(stderr, "globe: %s\n", text.c_str());
-  };
-  converters::ConvertListener listener;
-  if (!arguments.quiet) listener.note = print;
-  listener.warning = [&](const std::string& text) { print("warning: " + text); };
-  listener.progress = [&](const std::string& stage, double fraction) { progress.show(stage, fraction); };
+  const converters::ConvertListener listener = listener_of(progress, arguments.quiet);
   if (arguments.list_jobs) {
     const std::vector<converters::Job> jobs = converters::list_jobs(options, listener);
     progress.clear();

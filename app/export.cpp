@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,11 +7,13 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/converter_command.h"
 #include "app/parse_options.h"
 #include "app/planet_argument.h"
 #include "app/progress.h"
 #include "converters/export_map.h"
 #include "converters/export_mesh.h"
+#include "converters/resources.h"
 #include "globe/base/error.h"
 #include "globe/base/pending_file.h"
 
@@ -24,10 +24,6 @@ using globe::UsageError;
 
 constexpr int kMaxExportLevel = 24;
 constexpr int kLeastMemory_mb = 256;
-/// Of the memory cap: what the program takes before it reads any ground (seen 150 MB), and the nodes that
-/// each thread holds.
-constexpr std::size_t kReservedBytes = std::size_t{176} << 20;
-
 constexpr std::size_t kEnoughBytes = std::size_t{1} << 30;  ///< of a cache
 
 /// The command line as it was typed.
@@ -99,12 +95,6 @@ converters::ExportOptions options_from(const Arguments& arguments) {
   return options;
 }
 
-std::size_t memory_of(const Arguments& arguments) {
-  if (arguments.memory_mb) return static_cast<std::size_t>(*arguments.memory_mb) << 20;
-  return static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) / 2;
-}
-
 /// A mesh is a part of the planet, of heights, as its level has them.
 void require_mesh_options(const Arguments& arguments) {
   if (arguments.extent.empty()) {
@@ -123,18 +113,15 @@ void run(const Arguments& arguments) {
   if (is_mesh) require_mesh_options(arguments);
   globe::refuse_existing(options.output, options.overwrite);
   // For tiles as they are stored, for ground made of them, for pixels on their way.
-  const std::size_t share = (memory_of(arguments) - kReservedBytes) / 3;
+  const std::size_t share =
+      (converters::memory_cap(static_cast<std::size_t>(arguments.memory_mb.value_or(0)) << 20) -
+       converters::kReservedBytes) /
+      3;
   const auto surface =
       open_planet(arguments.planet, std::min(share, kEnoughBytes), std::min(share, kEnoughBytes));
   options.memory_bytes = share;
   Progress progress(progress_style(arguments.quiet, arguments.progress == "json"));
-  converters::ConvertListener listener;
-  const auto print = [&](const std::string& text) {
-    progress.clear();
-    std::fprintf(stderr, "globe: %s\n", text.c_str());
-  };
-  if (!arguments.quiet) listener.note = print;
-  listener.progress = [&](const std::string& stage, double fraction) { progress.show(stage, fraction); };
+  const converters::ConvertListener listener = listener_of(progress, arguments.quiet);
   if (is_mesh) {
     converters::export_mesh(surface, options, listener);
   } else {

@@ -2,12 +2,12 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "app/commands.h"
+#include "app/converter_command.h"
 #include "app/map_options.h"
 #include "app/planet_argument.h"
 #include "app/point.h"
@@ -49,10 +49,6 @@ std::string name_from(const std::string& path) {
 }
 
 converters::InsetOptions options_from(const Arguments& arguments) {
-  static const std::map<std::string, converters::Filter> filters{{"nearest", converters::Filter::kNearest},
-                                                                 {"bilinear", converters::Filter::kBilinear},
-                                                                 {"bicubic", converters::Filter::kBicubic},
-                                                                 {"area", converters::Filter::kArea}};
   if (procedural_seed(arguments.planet)) {
     throw globe::UsageError(arguments.planet,
                             "the built-in planet lies in no folder that could hold an inset",
@@ -69,7 +65,7 @@ converters::InsetOptions options_from(const Arguments& arguments) {
                                          : name_from(arguments.heights.empty() ? arguments.colors.front()
                                                                                : arguments.heights.front());
   if (arguments.level >= 0) options.level = arguments.level;
-  if (!arguments.filter.empty()) options.filter = filters.at(arguments.filter);
+  if (!arguments.filter.empty()) options.filter = filter_named(arguments.filter);
   if (!arguments.rim.empty()) {
     options.rim_m = parse_length_m(arguments.rim);
     if (!(*options.rim_m > 0.0))
@@ -86,14 +82,7 @@ converters::InsetOptions options_from(const Arguments& arguments) {
 void inset(const Arguments& arguments) {
   const converters::InsetOptions options = options_from(arguments);
   Progress progress(progress_style(arguments.quiet, arguments.progress == "json"));
-  const auto print = [&](const std::string& text) {
-    progress.clear();
-    std::fprintf(stderr, "globe: %s\n", text.c_str());
-  };
-  converters::ConvertListener listener;
-  if (!arguments.quiet) listener.note = print;
-  listener.warning = [&](const std::string& text) { print("warning: " + text); };
-  listener.progress = [&](const std::string& stage, double fraction) { progress.show(stage, fraction); };
+  const converters::ConvertListener listener = listener_of(progress, arguments.quiet);
   converters::lay_inset(options, listener);
 }
 

@@ -46,12 +46,13 @@ void filter_on_border(const GuardedBlock& block, int i, int j, float* out) {
     globe::planet::ivec3 key;
     const float* value;
   };
-  std::array<Known, kAround.size() + 1> known{};
+  std::array<Known, globe::planet::kLatticeSteps.size() + 1> known{};
   const auto know = [&](std::size_t k, int x, int y) {
     known[k] = {octahedral_key(globe::planet::fold({rect.d, rect.level, x, y})), block.at(x, y)};
   };
   know(0, i, j);
-  for (std::size_t k = 0; k < kAround.size(); ++k) know(k + 1, i + kAround[k].x, j + kAround[k].y);
+  for (std::size_t k = 0; k < globe::planet::kLatticeSteps.size(); ++k)
+    know(k + 1, i + globe::planet::kLatticeSteps[k].x, j + globe::planet::kLatticeSteps[k].y);
   const auto value_at = [&](const Node& node) {
     const globe::planet::ivec3 key = octahedral_key(node);
     return std::find_if(known.begin(), known.end(), [&](const Known& k) { return k.key == key; })->value;

@@ -10,10 +10,6 @@ namespace converters {
 
 inline constexpr std::size_t kMaxChannels = 4;
 
-/// Neighbours of a node in the lattice, in order around it.
-inline constexpr std::array<globe::planet::ivec2, 6> kAround{
-    {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
-
 /// Filtered value (pyramid.h) at a node on a diamond's border, the same from each diamond that has it: sums
 /// in the order of the name with the smallest diamond, each neighbour taken once.
 /// @param fine  the node at the finer level, both coordinates even
@@ -30,7 +26,7 @@ void filter_border(const globe::planet::Node& fine, std::size_t channels, const 
   std::array<globe::planet::ivec3, 6> seen{};
   std::array<double, kMaxChannels> sum{};
   std::size_t count = 0;
-  for (const auto& step : kAround) {
+  for (const auto& step : globe::planet::kLatticeSteps) {
     const Node neighbor = globe::planet::fold({node.d, node.level, node.i + step.x, node.j + step.y});
     const globe::planet::ivec3 key = globe::planet::octahedral_key(neighbor);
     if (std::find(seen.begin(), seen.begin() + count, key) != seen.begin() + count) continue;

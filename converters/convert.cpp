@@ -3,7 +3,6 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -11,7 +10,6 @@
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <thread>
 #include <utility>
 
 #include "converters/body.h"
@@ -22,6 +20,7 @@
 #include "converters/output_folder.h"
 #include "converters/recipe.h"
 #include "converters/report.h"
+#include "converters/resources.h"
 #include "converters/thesis_mapping.h"
 #include "globe/base/error.h"
 
@@ -30,17 +29,8 @@ namespace {
 
 using globe::geo::Ellipsoid;
 
-/// Of the memory cap: what the program takes before it holds any map (seen 140 MB, its libraries), decoders
-/// and windows.
-constexpr std::size_t kReservedBytes = std::size_t{176} << 20;
-
 /// What one job takes while it runs: the values of its columns, and a window of the map.
 constexpr std::size_t kJobBytes = std::size_t{48} << 20;
-
-std::size_t default_memory() {
-  return static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) / 2;
-}
 
 /// A layer's maps and the jobs that convert them.
 struct Task {
@@ -55,11 +45,6 @@ Ellipsoid ellipsoid_of(const ConvertOptions& options) {
   return options.ellipsoid.value_or(globe::geo::kWgs84);
 }
 
-int threads_of(const ConvertOptions& options) {
-  return options.threads > 0 ? options.threads
-                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 std::vector<Task> plan(const ConvertOptions& options, const Report& report) {
   const Ellipsoid ellipsoid = ellipsoid_of(options);
   report.note("ellipsoid a = " + number_text(ellipsoid.a) +
@@ -70,7 +55,7 @@ std::vector<Task> plan(const ConvertOptions& options, const Report& report) {
     report.warning("--as-thesis puts the ground up to " + number_text(std::round(shift_m / 1000.0)) +
                    " km from where it is; for comparison only");
   }
-  const int threads = threads_of(options);
+  const int threads = thread_count(options.threads);
   std::vector<Task> tasks;
   const auto add = [&](const std::vector<MapInput>& inputs, MapKind kind, std::optional<int> level) {
     if (!inputs.empty())
@@ -89,13 +74,13 @@ class Conversion {
       : options_(options),
         report_(report),
         ellipsoid_(ellipsoid_of(options)),
-        threads_(threads_of(options)),
+        threads_(thread_count(options.threads)),
         tasks_(std::move(tasks)),
         sharing_(sharing),
         output_(options.planet, options.overwrite, recipe_of(options), sharing),
         limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
         arena_(threads_) {
-    const std::size_t cap = options.memory_bytes > 0 ? options.memory_bytes : default_memory();
+    const std::size_t cap = memory_cap(options.memory_bytes);
     const std::size_t free = cap - std::min(cap, kReservedBytes);
     workers_ = static_cast<int>(
         std::clamp<std::size_t>(free / 2 / kJobBytes, 1, static_cast<std::size_t>(threads_)));

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <thread>
 #include <vector>
 
+#include "converters/resources.h"
 #include "globe/base/error.h"
 #include "globe/base/pending_file.h"
 #include "globe/planet/inset_stack.h"
@@ -218,9 +218,7 @@ void export_map(const SurfacePointer& surface, const ExportOptions& options,
     note("16 bits span " + number(plan.map.low_m) + " to " + number(plan.map.high_m) + " m: metres = " +
          number(plan.map.low_m) + " + value / 65535 * " + number(plan.map.high_m - plan.map.low_m));
   }
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = thread_count(options.threads);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   globe::PendingFile file(options.output, options.overwrite);

@@ -13,9 +13,6 @@ using globe::planet::node_direction;
 
 namespace {
 
-/// Neighbours of a node in order around it; two that follow one another make a trixel with it.
-constexpr std::array<globe::planet::ivec2, 6> kAround{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
-
 /// Name with the smallest diamond: all names of a vertex lead to the same arithmetic.
 Node canonical(const Node& node) {
   const globe::planet::Names all = globe::planet::names(node);
@@ -28,7 +25,7 @@ Node canonical(const Node& node) {
 int corner_ring(const Node& node, std::array<dvec3, 6>& ring) {
   const dvec3 u = node_direction(node);
   std::vector<dvec3> found;
-  for (const auto& step : kAround) {
+  for (const auto& step : globe::planet::kLatticeSteps) {
     const dvec3 v =
         node_direction(globe::planet::fold({node.d, node.level, node.i + step.x, node.j + step.y}));
     if (std::find(found.begin(), found.end(), v) == found.end()) found.push_back(v);
@@ -44,11 +41,12 @@ int corner_ring(const Node& node, std::array<dvec3, 6>& ring) {
 int ring_of(const Node& node, std::array<dvec3, 6>& ring) {
   const int n = globe::planet::nodes_per_side(node.level);
   if ((node.i == 0 || node.i == n) && (node.j == 0 || node.j == n)) return corner_ring(node, ring);
-  for (std::size_t k = 0; k < kAround.size(); ++k) {
-    ring[k] = node_direction(
-        globe::planet::fold({node.d, node.level, node.i + kAround[k].x, node.j + kAround[k].y}));
+  for (std::size_t k = 0; k < globe::planet::kLatticeSteps.size(); ++k) {
+    ring[k] =
+        node_direction(globe::planet::fold({node.d, node.level, node.i + globe::planet::kLatticeSteps[k].x,
+                                            node.j + globe::planet::kLatticeSteps[k].y}));
   }
-  return static_cast<int>(kAround.size());
+  return static_cast<int>(globe::planet::kLatticeSteps.size());
 }
 
 /// Columns in 360 degrees where a map's columns are longitudes and end somewhere; else 0.

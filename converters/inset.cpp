@@ -1,4 +1,5 @@
 #include "converters/inset.h"
+#include "converters/resources.h"
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -10,7 +11,6 @@
 #include <memory>
 #include <numbers>
 #include <set>
-#include <thread>
 
 #include "converters/inset_footprint.h"
 #include "converters/inset_output.h"
@@ -241,13 +241,10 @@ void lay_inset(const InsetOptions& options, const ConvertListener& listener) {
   if (taken && !options.overwrite)
     throw globe::Error(options.planet.string(), "it has an inset " + options.name + " already",
                        "give another --name, or --overwrite");
-  const int threads =
-      options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+  const int threads = thread_count(options.threads);
   const tbb::global_control cap(tbb::global_control::max_allowed_parallelism,
                                 static_cast<std::size_t>(threads));
-  const auto machine = static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) *
-                       static_cast<std::size_t>(::sysconf(_SC_PAGE_SIZE));
-  const std::size_t memory = options.memory_bytes > 0 ? options.memory_bytes : machine / 2;
+  const std::size_t memory = memory_cap(options.memory_bytes);
 
   std::vector<Plan> plans;
   if (!options.heights.empty())

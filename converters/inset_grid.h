@@ -112,9 +112,6 @@ class InsetGrid {
   std::array<Diamond, globe::planet::kDiamonds> diamonds_;
 };
 
-inline constexpr std::array<globe::planet::ivec2, 6> kLatticeSteps{
-    {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
-
 /// The one of a node's names that stands for all of them.
 inline globe::planet::Node first_name(const globe::planet::Node& node) {
   const int n = globe::planet::nodes_per_side(node.level);

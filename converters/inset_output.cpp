@@ -71,7 +71,7 @@ InsetGrid<float> filtered(const InsetGrid<float>& fine, const InsetGrid<float>& 
           }
         };
         add(2 * i, 2 * j, 2.0);
-        for (const auto& step : kLatticeSteps) add(2 * i + step.x, 2 * j + step.y, 1.0);
+        for (const auto& step : globe::planet::kLatticeSteps) add(2 * i + step.x, 2 * j + step.y, 1.0);
         coarse.set_all_names(node, static_cast<float>(sum / share));
       }
     }

@@ -18,7 +18,8 @@ std::array<Node, 6> neighbours(const Node& node) {
   const int n = globe::planet::nodes_per_side(node.level);
   std::array<Node, 6> found;
   for (std::size_t k = 0; k < found.size(); ++k) {
-    const Node beside{node.d, node.level, node.i + kLatticeSteps[k].x, node.j + kLatticeSteps[k].y};
+    const Node beside{node.d, node.level, node.i + globe::planet::kLatticeSteps[k].x,
+                      node.j + globe::planet::kLatticeSteps[k].y};
     const bool inside = beside.i > 0 && beside.j > 0 && beside.i < n && beside.j < n;
     found[k] = inside ? beside : first_name(globe::planet::fold(beside));
   }

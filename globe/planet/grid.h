@@ -60,6 +60,10 @@ dvec3 node_direction(const Node& node);
 /// the six sectors of the plane exist, so places behind a corner are reached by two coordinates.
 Node fold(const Node& plane);
 
+/// Neighbours of a node in the lattice, in order around it; two that follow one another make a trixel with
+/// it.
+inline constexpr std::array<ivec2, 6> kLatticeSteps{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
+
 /// The other names of a node that lies on a diamond's border: itself first. `count` of the array are valid.
 struct Names {
   std::array<Node, 4> node;

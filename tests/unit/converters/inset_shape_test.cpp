@@ -70,7 +70,7 @@ TEST(InsetShape, WeightRisesFromZeroOutsideToOneWithoutASteepStepByEveryName) {
       const globe::planet::Names all = names(node);
       for (int k = 1; k < all.count; ++k)
         ASSERT_EQ(samples.weight.get(all.node[static_cast<std::size_t>(k)]), w);
-      for (const auto& step : kLatticeSteps) {
+      for (const auto& step : globe::planet::kLatticeSteps) {
         const Node beside = globe::planet::fold({node.d, kLevel, node.i + step.x, node.j + step.y});
         ASSERT_LT(std::abs(samples.weight.get(beside) - w), 0.3F);
         // Values go on as far as stencils reach.
