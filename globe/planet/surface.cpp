@@ -280,7 +280,7 @@ TileValues<double> Surface::heights_around(const SurfaceTile& tile, int known) c
     });
     const std::vector<BuiltinPlanet::Point> points = builtin_->at(u);
     for (std::size_t k = 0; k < beyond.size(); ++k) around.values[beyond[k]] = points[k].height_m;
-  } else {
+  } else if (has_heights()) {
     const std::vector<float> heights = read_nodes("height", tile.id, around.guard);
     std::copy(heights.begin(), heights.end(), around.values.begin());
   }
@@ -349,9 +349,13 @@ void Surface::data_heights(int d, int level, int i0, int j0, int ni, int nj, dou
 }
 
 DataSource Surface::data_at(const dvec3& u) const {
-  const InsetStack::DataAt found = insets_->data_at(u);
+  const InsetStack::DataAt found = insets_->data_at(u, "height");
   if (!found.inset) return {data_level_, {}, false};
   return {std::max(found.level, data_level_), info_.insets[*found.inset].name, found.alone};
+}
+
+int Surface::color_level_at(const dvec3& u) const {
+  return std::max(color_level_, insets_->data_at(u, "color").level);
 }
 
 int Surface::finest_data_level() const { return std::max(data_level_, insets_->finest_level()); }

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/cli/make_planet.h"
 #include "tests/cli/run_program.h"
 #include "tests/temporary_folder.h"
 
@@ -66,6 +67,17 @@ TEST(Program, HelpNamesEverySubcommand) {
     EXPECT_NE(help.out.find("--"), std::string::npos) << command;
   }
   EXPECT_EQ(run_program({"-h"}).out, run.out);
+}
+
+TEST(Program, DrawsAPlanetOfColorsAlone) {
+  const TemporaryFolder folder;
+  cli::make_planet(folder.path(), {});
+  const std::string colors = cli::make_color_planet(folder.path());
+  const std::string picture = (folder / "view.png").string();
+  const Outcome run = run_program(
+      {"shot", colors, "-o", picture, "--at", "10 20 50000", "--size", "64x32", "--detail", "16", "--quiet"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(picture));
 }
 
 TEST(Program, TellsItsVersion) {
