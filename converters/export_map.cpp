@@ -183,15 +183,16 @@ std::pair<double, double> range_of(const Surface& surface, const ExportOptions& 
 
 int default_level(const Surface& surface, MapContent content, const Extent& extent) {
   if (!surface.has_data()) return surface.data_level();
-  if (content == MapContent::kColors) return surface.dataset()->layer("color")->level;
-  int level = surface.data_level();
+  const bool colors = content == MapContent::kColors;
+  int level = colors ? surface.dataset()->layer("color")->level : surface.data_level();
   if (surface.insets().empty() || extent == Extent{}) return level;
   constexpr int kPlaces = 32;  // each way
   for (int y = 0; y < kPlaces; ++y) {
     const double lat = extent.south + (extent.north - extent.south) * (y + 0.5) / kPlaces;
     for (int x = 0; x < kPlaces; ++x) {
       const double lon = extent.west + (extent.east - extent.west) * (x + 0.5) / kPlaces;
-      level = std::max(level, surface.data_at(globe::geo::normal_from_degrees(lat, lon)).level);
+      const globe::planet::dvec3 u = globe::geo::normal_from_degrees(lat, lon);
+      level = std::max(level, colors ? surface.color_level_at(u) : surface.data_at(u).level);
     }
   }
   return level;

@@ -253,11 +253,11 @@ void InsetStack::lay_data_heights(int d, int level, int i0, int j0, int ni, int 
   }
 }
 
-InsetStack::DataAt InsetStack::data_at(const dvec3& u) const {
+InsetStack::DataAt InsetStack::data_at(const dvec3& u, std::string_view layer) const {
   DataAt found;
   for (std::size_t k = insets_.size(); k-- > 0 && !found.alone;) {
     const Inset& inset = insets_[k];
-    if (!inset.has_heights) continue;
+    if (inset.info.layer != layer) continue;
     const Place place = locate(u, inset.info.level);
     const WeightedNodes around = trixel_nodes(place.d, inset.info.level, place.ij);
     if (!std::any_of(around.nodes.begin(), around.nodes.end(),

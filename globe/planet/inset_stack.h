@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "globe/planet/dataset.h"
@@ -65,13 +66,13 @@ class InsetStack {
   /// The same for a rectangle of nodes, row by row, in place.
   void lay_data_heights(int d, int level, int i0, int j0, int ni, int nj, double* heights) const;
 
-  /// The data of heights around a place.
+  /// The data around a place, of one layer: "height" or "color".
   struct DataAt {
     int level = -1;                    ///< finest level of what shows; -1 where no inset does
     std::optional<std::size_t> inset;  ///< the topmost that shows
     bool alone = false;                ///< nothing below the insets shows
   };
-  DataAt data_at(const dvec3& u) const;
+  DataAt data_at(const dvec3& u, std::string_view layer) const;
 
   /// Highest of all heights; nothing without.
   std::optional<double> highest() const;

@@ -101,6 +101,8 @@ class Surface {
   void data_heights(int d, int level, int i0, int j0, int ni, int nj, double* out) const;
   /// The finest data at a place: data_level() but where there are insets.
   DataSource data_at(const dvec3& u) const;
+  /// Finest level of the colors there; -1 without any.
+  int color_level_at(const dvec3& u) const;
   /// Height of the flat level-L trixel above a direction: linear between its three nodes.
   double height(const dvec3& u, int level) const;
   /// The same at the finest level up to `level` whose ground is known already: nothing is synthesised, so it

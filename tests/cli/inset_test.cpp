@@ -1,3 +1,4 @@
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -11,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "tests/cli/make_planet.h"
@@ -114,6 +116,49 @@ TEST_F(InsetCommand, GoesAcrossTheAntimeridianAndOverAPole) {
   EXPECT_NEAR(height("90 0")["height_m"].get<double>(), 4000.0, 0.1);
   EXPECT_NEAR(height("89.9 135")["height_m"].get<double>(), 4000.0, 0.1);
   EXPECT_EQ(run_program({"info", planet_, "--verify"}).status, 0);
+}
+
+TEST_F(InsetCommand, LaysAnImageOnItsPlaceAndNowhereElse) {
+  constexpr int kSide = 64;
+  std::vector<unsigned char> flag;  // red in the west, green in the east
+  for (int k = 0; k < kSide * kSide; ++k) {
+    const bool west = k % kSide < kSide / 2;
+    flag.insert(flag.end(),
+                {static_cast<unsigned char>(west ? 250 : 5), static_cast<unsigned char>(west ? 5 : 250), 5});
+  }
+  const std::string image = (folder_ / "flag.png").string(), colored = (folder_ / "colored").string();
+  const auto output = OIIO::ImageOutput::create(image);
+  ASSERT_TRUE(output->open(image, OIIO::ImageSpec(kSide, kSide, 3, OIIO::TypeDesc::UINT8)));
+  ASSERT_TRUE(output->write_image(OIIO::TypeDesc::UINT8, flag.data()) && output->close());
+  const std::string map = (folder_ / "blue.png").string();
+  const std::vector<unsigned char> blue(32 * 16, 90);
+  const auto base = OIIO::ImageOutput::create(map);
+  ASSERT_TRUE(base->open(map, OIIO::ImageSpec(32, 16, 1, OIIO::TypeDesc::UINT8)));
+  ASSERT_TRUE(base->write_image(OIIO::TypeDesc::UINT8, blue.data()) && base->close());
+  ASSERT_EQ(run_program({"convert", "--color", map, "-o", colored, "--level", "7", "--quiet"}).status, 0);
+  const Outcome made = run_program(
+      {"inset", colored, "--color", image, "--extent", "10,40,12,42", "--name", "flag", "--quiet"});
+  ASSERT_EQ(made.status, 0) << made.err;
+
+  const std::string part = (folder_ / "part.png").string();
+  ASSERT_EQ(
+      run_program({"export", colored, "-o", part, "--extent", "9,39,13,43", "--size", "80x80", "--quiet"})
+          .status,
+      0);
+  const auto input = OIIO::ImageInput::open(part);
+  ASSERT_TRUE(input);
+  std::vector<unsigned char> pixels(80 * 80 * 3);
+  ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, pixels.data()));
+  const auto at = [&](int x, int y, int c) {
+    return int{pixels[static_cast<std::size_t>((y * 80 + x) * 3 + c)]};
+  };
+  EXPECT_NEAR(at(33, 40, 0), 250, 3);  // 10.7 east, in the west of the flag
+  EXPECT_NEAR(at(33, 40, 1), 5, 3);
+  EXPECT_NEAR(at(47, 40, 0), 5, 3);
+  EXPECT_NEAR(at(47, 40, 1), 250, 3);
+  for (const auto& [x, y] : {std::pair{17, 40}, {62, 40}, {40, 17}, {40, 62}})
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(x, y, c), 90, 1) << x << ", " << y;
+  EXPECT_EQ(run_program({"info", colored, "--verify"}).status, 0);
 }
 
 TEST_F(InsetCommand, ASecondOneOfTheNameNeedsOverwrite) {
