@@ -66,6 +66,12 @@ std::vector<Task> plan(const ConvertOptions& options, const Report& report) {
   return tasks;
 }
 
+std::size_t jobs_in(const std::vector<Task>& tasks) {
+  std::size_t all = 0;
+  for (const Task& task : tasks) all += task.jobs.size();
+  return all;
+}
+
 /// A conversion under way.
 class Conversion {
  public:
@@ -108,11 +114,7 @@ class Conversion {
     }
     return done;
   }
-  std::size_t all_jobs() const {
-    std::size_t all = 0;
-    for (const Task& task : tasks_) all += task.jobs.size();
-    return all;
-  }
+  std::size_t all_jobs() const { return jobs_in(tasks_); }
   OutputFolder& output() { return output_; }
 
   /// Everything after the jobs: coarser levels, the files, planet.json, the name.
@@ -258,10 +260,11 @@ class Conversion {
 class OneJob : public Team {
  public:
   OneJob(const std::vector<Task>& tasks, std::size_t number) {
+    std::size_t first = 0;
     for (const Task& task : tasks) {
-      const bool here = number < task.jobs.size();
-      given_.push_back(here ? number : task.jobs.size());
-      number = here ? std::numeric_limits<std::size_t>::max() : number - task.jobs.size();
+      const std::size_t count = task.jobs.size();
+      given_.push_back(number >= first && number - first < count ? number - first : count);
+      first += count;
     }
   }
   std::size_t claim(std::size_t list) override {
@@ -299,12 +302,13 @@ void convert_with(Team& team, const ConvertOptions& options, const ConvertListen
 
 bool convert_job(int number, const ConvertOptions& options, const ConvertListener& listener) {
   const Report report(listener);
-  Conversion conversion(options, report, plan(options, report), OutputFolder::Sharing::kInTeam);
-  if (number < 0 || static_cast<std::size_t>(number) >= conversion.all_jobs()) {
+  std::vector<Task> tasks = plan(options, report);
+  if (number < 0 || static_cast<std::size_t>(number) >= jobs_in(tasks)) {
     throw globe::UsageError("--job " + std::to_string(number),
-                            "there are jobs 0 to " + std::to_string(conversion.all_jobs() - 1), "see --jobs");
+                            "there are jobs 0 to " + std::to_string(jobs_in(tasks) - 1), "see --jobs");
   }
-  OneJob team(conversion.tasks(), static_cast<std::size_t>(number));
+  OneJob team(tasks, static_cast<std::size_t>(number));
+  Conversion conversion(options, report, std::move(tasks), OutputFolder::Sharing::kInTeam);
   conversion.run_jobs(team);
   if (!team.gather(conversion.all_done())) {
     report.note("job " + std::to_string(number) + " is done, " + std::to_string(conversion.done_jobs()) +

@@ -132,6 +132,7 @@ TEST_F(ConvertJobs, AJobOutOfRangeIsRefused) {
   const Outcome one = run_program(command() + Words{"--job", "16", "--quiet"});
   EXPECT_EQ(one.status, 2);
   EXPECT_NE(one.err.find("jobs 0 to 15"), std::string::npos) << one.err;
+  EXPECT_FALSE(std::filesystem::exists(planet() + ".partial"));
   EXPECT_EQ(run_program(command() + Words{"--job", "1", "--jobs"}).status, 2);
 }
 
