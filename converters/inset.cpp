@@ -1,5 +1,4 @@
 #include "converters/inset.h"
-#include "converters/resources.h"
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -18,6 +17,7 @@
 #include "converters/map_plan.h"
 #include "converters/number_text.h"
 #include "converters/report.h"
+#include "converters/resources.h"
 #include "globe/base/error.h"
 #include "globe/planet/planet_file.h"
 #include "globe/planet/surface.h"
