@@ -61,7 +61,8 @@ converters::ConvertOptions options_from(const Arguments& arguments) {
   if (!arguments.ellipsoid.empty()) options.ellipsoid = parse_ellipsoid(arguments.ellipsoid);
   options.latitude =
       arguments.latitude == "geodetic" ? converters::Latitude::kGeodetic : converters::Latitude::kGeocentric;
-  options.voids = arguments.voids == "fill" ? converters::Gaps::kFill : converters::Gaps::kZero;
+  options.voids = arguments.voids == "zero" ? converters::Gaps::kZero : converters::Gaps::kFill;
+  options.mark_voids = arguments.voids == "mark";
   options.geoid = arguments.geoid;
   if (!arguments.datum.empty()) options.datum = arguments.datum;
   options.as_thesis = arguments.as_thesis;
@@ -133,8 +134,9 @@ void add_convert(CLI::App& program, int& exit_status) {
   command
       ->add_option(
           "--voids", arguments->voids,
-          "what voids get that no earlier map has values for: fill (from around them; default), zero")
-      ->check(CLI::IsMember({"fill", "zero"}));
+          "what voids get that no earlier map has values for: fill (from around them; default), mark\n"
+          "(the same, and heights are known as filled from then on), zero")
+      ->check(CLI::IsMember({"fill", "mark", "zero"}));
   command->add_option("--geoid", arguments->geoid,
                       "grid of geoid heights to add: heights are then above the ellipsoid. A raster, a .pgm "
                       "of GeographicLib, or an installed one's name (egm96-5)");

@@ -36,6 +36,7 @@ struct Arguments {
   std::string range;
   std::string filter;
   std::optional<int> level;
+  std::optional<double> nodata;
   std::optional<int> memory_mb;
   int threads = 0;
   bool overwrite = false;
@@ -90,6 +91,7 @@ converters::ExportOptions options_from(const Arguments& arguments) {
   options.level = arguments.level;
   if (!arguments.filter.empty()) options.sampling = filters.at(arguments.filter);
   if (!arguments.range.empty()) options.range = parse_range(arguments.range);
+  options.nodata = arguments.nodata;
   options.threads = arguments.threads;
   options.overwrite = arguments.overwrite;
   return options;
@@ -100,6 +102,7 @@ void require_mesh_options(const Arguments& arguments) {
   if (arguments.extent.empty()) {
     throw UsageError(arguments.output, "a mesh shows a part of the planet", "give --extent W,S,E,N");
   }
+  if (arguments.nodata) throw UsageError("--nodata", "means nothing to a mesh", "leave it out");
   for (const auto& [option, text] :
        {std::pair{"--layer", arguments.layer}, std::pair{"--range", arguments.range},
         std::pair{"--filter", arguments.filter}}) {
@@ -158,6 +161,9 @@ void add_export(CLI::App& program) {
                    "nearest, linear (in the trixel), cubic or area (mean over the pixel);\n"
                    "default: area where pixels are larger than cells, else linear")
       ->check(CLI::IsMember({"nearest", "linear", "cubic", "area"}));
+  command->add_option(
+      "--nodata", arguments->nodata,
+      "metres (or nan) where no map had a height, of a planet converted with --voids mark; .tif");
   command
       ->add_option("--memory", arguments->memory_mb, "MB to use, at least 256 (default: half the machine's)")
       ->check(CLI::Range(kLeastMemory_mb, 1 << 24));

@@ -19,6 +19,7 @@ using globe::planet::Interpolation;
 using globe::planet::Surface;
 
 constexpr const char* kSynthesised = "synthesised";
+constexpr const char* kFilled = "filled";
 
 struct HeightOptions {
   std::string planet;
@@ -34,7 +35,7 @@ struct Answer {
   double lat_deg, lon_deg;
   int level;
   double height_m;
-  std::string source;             ///< "data", the name of an inset, or "synthesised"
+  std::string source;             ///< "data", the name of an inset, "filled" or "synthesised"
   std::optional<double> error_m;  ///< none where the ground is synthesised
   std::string datum;
 };
@@ -81,12 +82,13 @@ GroundHeight height_of(const Surface& surface, const globe::geo::dvec3& u, int l
 
 /// What a height of a level is made of. Finer than the planet's own data, the rim of an inset has a share of
 /// what is synthesised around it.
-std::string source_of(const Surface& surface, const globe::planet::DataSource& data, int level,
-                      const HeightOptions& options) {
+std::string source_of(const Surface& surface, const globe::geo::dvec3& u,
+                      const globe::planet::DataSource& data, int level, const HeightOptions& options) {
   const bool by_data = !options.level && !options.drawn;
   const bool measured = by_data || level <= surface.data_level() || (level <= data.level && data.inset_alone);
   if (!surface.has_data() || !measured) return kSynthesised;
-  return data.inset.empty() ? "data" : std::string(data.inset);
+  if (!data.inset.empty()) return std::string(data.inset);
+  return surface.is_filled(u, level) ? kFilled : "data";
 }
 
 int run(const HeightOptions& options) {
@@ -104,10 +106,10 @@ int run(const HeightOptions& options) {
                   shown_longitude(at.lon_deg, precision),
                   level,
                   height.height_m,
-                  source_of(*surface, data, level, options),
+                  source_of(*surface, u, data, level, options),
                   std::nullopt,
                   surface->info().vertical_datum};
-    if (result.source != kSynthesised) result.error_m = height.error_m;
+    if (result.source != kSynthesised && result.source != kFilled) result.error_m = height.error_m;
     if (options.records.json) return json_line(result, precision);
     return options.records.csv ? fields(result, precision, ',', "") : fields(result, precision, ' ', "-");
   };
@@ -139,14 +141,15 @@ void add_height(CLI::App& program, int& exit_status) {
   command->footer(
       "Text: LAT LON LEVEL HEIGHT_M SOURCE ERROR_M DATUM.  An ALT is not looked at.\n"
       "SOURCE is data, the name of an inset (also in its rim, where it is blended with the data around it), "
-      "or\n"
+      "filled\n"
+      "(no map had a value here, of planets made by convert --voids mark), or\n"
       "synthesised: levels finer than the data add made-up detail, and procedural has no data at all.\n"
       "ERROR_M tells how well the samples bound the ground between them: half the difference between the\n"
       "highest and the lowest corner of the trixel (all of it for nearest); with --drawn also how far the "
       "flat\n"
       "trixel lies from the ground between its corners.  It says nothing of errors in the map itself; - "
       "(null)\n"
-      "where the ground is synthesised.\n"
+      "where the ground is filled or synthesised.\n"
       "Example: globe height my-planet --json \"27.99 86.92\"");
   command->callback([options, &exit_status] { exit_status = run(*options); });
 }

@@ -276,6 +276,33 @@ class ColorParts {
   std::vector<std::uint8_t> bytes_;
 };
 
+/// Marks of voids.
+class VoidParts {
+ public:
+  VoidParts(const Job& job, const PartFiles& files) {
+    if (job.level > 0) next_.emplace(files.level("void"), job.level - 1, 1);
+  }
+
+  void write(GuardedBlock& block, TileWriter& tiles) {
+    const NodeRect& rect = block.rect();
+    const std::vector<float>& values = block.values();
+    bytes_.resize(values.size());
+    std::transform(values.begin(), values.end(), bytes_.begin(), mark_byte);
+    const std::uint8_t* first = bytes_.data() + (block.at(rect.i0, rect.j0) - values.data());
+    tiles.write({first, rect.ni, rect.nj, block.stride()}, rect.i0);
+    if (next_) write_subsampled(block, *next_);
+  }
+
+  void sync() const {
+    if (next_) next_->sync();
+  }
+  static Range range() { return {0.0, 1.0}; }
+
+ private:
+  std::optional<LevelFile> next_;
+  std::vector<std::uint8_t> bytes_;
+};
+
 template <typename Parts>
 Range run(const Job& job, const NodeSource& nodes, int channels, const char* storage,
           const std::filesystem::path& path, Parts parts, const std::function<void(double)>& progress) {
@@ -306,9 +333,10 @@ std::filesystem::path PartFiles::level(const std::string& layer) const { return 
 
 Range run_job(const Job& job, const NodeSource& nodes, const globe::geo::Ellipsoid& ellipsoid,
               const PartFiles& files, const std::function<void(double)>& progress) {
-  if (job.map == MapKind::kHeights) {
+  if (job.layer == JobLayer::kHeight)
     return run(job, nodes, 1, "float32", files.tiles(job), HeightParts(job, ellipsoid, files), progress);
-  }
+  if (job.layer == JobLayer::kVoid)
+    return run(job, nodes, 1, "uint8", files.tiles(job), VoidParts(job, files), progress);
   return run(job, nodes, 3, "uint8", files.tiles(job), ColorParts(job, files), progress);
 }
 

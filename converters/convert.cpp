@@ -37,8 +37,15 @@ struct Task {
   PlannedLayer layer;
   std::vector<Job> jobs;
 
-  explicit Task(PlannedLayer planned) : layer(std::move(planned)), jobs(jobs_of(layer.kind, layer.level)) {}
-  std::string what() const { return layer.kind == MapKind::kHeights ? "heights" : "color"; }
+  Task(PlannedLayer planned, bool mark_voids)
+      : layer(std::move(planned)),
+        jobs(jobs_of(is_of_heights() ? JobLayer::kHeight : JobLayer::kColor, layer.level)) {
+    if (!mark_voids || !is_of_heights()) return;
+    const std::vector<Job> marks = jobs_of(JobLayer::kVoid, layer.level);
+    jobs.insert(jobs.end(), marks.begin(), marks.end());
+  }
+  bool is_of_heights() const { return layer.kind == MapKind::kHeights; }
+  std::string what() const { return is_of_heights() ? "heights" : "color"; }
 };
 
 Ellipsoid ellipsoid_of(const ConvertOptions& options) {
@@ -59,7 +66,8 @@ std::vector<Task> plan(const ConvertOptions& options, const Report& report) {
   std::vector<Task> tasks;
   const auto add = [&](const std::vector<MapInput>& inputs, MapKind kind, std::optional<int> level) {
     if (!inputs.empty())
-      tasks.emplace_back(plan_layer(inputs, kind, level, options, ellipsoid, threads, report));
+      tasks.emplace_back(plan_layer(inputs, kind, level, options, ellipsoid, threads, report),
+                         options.mark_voids);
   };
   add(options.heights, MapKind::kHeights, options.level);
   add(options.colors, MapKind::kColors, options.heights.empty() ? options.level : std::nullopt);
@@ -149,22 +157,21 @@ class Conversion {
     std::size_t first = team.claim(list);
     while (first < task.jobs.size() && output_.done(task.jobs[first])) first = team.claim(list);
     if (first >= task.jobs.size()) return;
-    const bool heights = task.layer.kind == MapKind::kHeights;
-    const std::unique_ptr<const Geoid> geoid = heights ? open_geoid() : nullptr;
+    const std::unique_ptr<const Geoid> geoid = task.is_of_heights() ? open_geoid() : nullptr;
     const SpoolFolder spools{output_.parts().folder, sharing_ == OutputFolder::Sharing::kInTeam};
-    const MapStack maps =
-        load_layer(task.layer, budget_, report_,
-                   options_.voids == Gaps::kFill ? "filled from around it" : "set to 0", spools);
+    const MapStack maps = load_layer(task.layer, budget_, report_, fate_of_voids(), spools);
     std::atomic<double> done = static_cast<double>(std::count_if(
         task.jobs.begin(), task.jobs.end(), [&](const Job& job) { return output_.done(job).has_value(); }));
-    const NodeSource nodes = [&](const NodeRect& rect, const RowSink& sink) {
+    const NodeSource values = [&](const NodeRect& rect, const RowSink& sink) {
       if (geoid) {
         sample_above_ellipsoid(maps, *geoid, rect, sink);
       } else {
         sample_nodes(maps, rect, options_.voids, sink, [](double) {});
       }
     };
+    const NodeSource marks = [&](const NodeRect& rect, const RowSink& sink) { mark_voids(maps, rect, sink); };
     const auto run = [&](const Job& job) {
+      const NodeSource& nodes = job.layer == JobLayer::kVoid ? marks : values;
       double before = 0;
       const Range range = run_job(job, nodes, ellipsoid_, output_.parts(), [&](double now) {
         const double all = done += now - before;
@@ -193,6 +200,21 @@ class Conversion {
     }
   }
 
+  std::string fate_of_voids() const {
+    if (options_.mark_voids) return "filled from around it and marked";
+    return options_.voids == Gaps::kFill ? "filled from around it" : "set to 0";
+  }
+
+  /// 1 where nothing valid of any map is in reach of the node, else 0.
+  static void mark_voids(const MapStack& maps, const NodeRect& rect, const RowSink& sink) {
+    const RowSink mark = [&](int i, int j, int count, const float*, const float* weights) {
+      std::vector<float> marks(static_cast<std::size_t>(count));
+      std::transform(weights, weights + count, marks.begin(), [](float w) { return w > 0.0F ? 0.0F : 1.0F; });
+      sink(i, j, count, marks.data(), weights);
+    };
+    sample_nodes(maps, rect, Gaps::kZero, mark, [](double) {});
+  }
+
   std::unique_ptr<const Geoid> open_geoid() {
     if (options_.geoid.empty()) return nullptr;
     return converters::open_geoid(options_.geoid, {ellipsoid_, options_.latitude}, budget_);
@@ -215,7 +237,7 @@ class Conversion {
     if (options_.datum) return *options_.datum;
     if (!options_.geoid.empty()) return "ellipsoid";
     for (const Task& task : tasks_) {
-      if (task.layer.kind == MapKind::kHeights) return datum_of(task.layer).value_or("unknown");
+      if (task.is_of_heights()) return datum_of(task.layer).value_or("unknown");
     }
     return "unknown";
   }
@@ -223,6 +245,7 @@ class Conversion {
   Range range_of(const Task& task) const {
     Range all = output_.done(task.jobs.front()).value();
     for (const Job& job : task.jobs) {
+      if (job.layer == JobLayer::kVoid) continue;
       const Range range = output_.done(job).value();
       all = {std::min(all.min, range.min), std::max(all.max, range.max)};
     }
@@ -233,8 +256,9 @@ class Conversion {
     std::vector<globe::planet::StoredLayer> stored;
     arena_.execute([&] {
       std::vector<LayerOutput> layers;
-      if (task.layer.kind == MapKind::kHeights) {
+      if (task.is_of_heights()) {
         layers = height_layers(task.layer.level, range_of(task), output_.parts(), ellipsoid_, budget_);
+        if (options_.mark_voids) layers.push_back(void_layer(task.layer.level, output_.parts(), budget_));
       } else {
         layers.push_back(color_layer(task.layer.level, output_.parts(), budget_));
       }

@@ -23,6 +23,7 @@ struct ConvertOptions {
   std::optional<globe::geo::Ellipsoid> ellipsoid;
   Latitude latitude = Latitude::kGeodetic;
   Gaps voids = Gaps::kFill;          ///< what the voids of maps get that no earlier map has values for
+  bool mark_voids = false;           ///< a layer "void" tells which nodes no map had a value for
   std::string geoid;                 ///< grid of geoid heights to add (geoid.h); "": none
   std::optional<std::string> datum;  ///< vertical datum by name
   bool as_thesis = false;            ///< rows taken as linear in latitude, for comparison (thesis_mapping.h)

@@ -65,8 +65,21 @@ struct Block {
   std::vector<float> values;
 };
 
-void write_blocks(const MapSampler& sampler, const MapDescription& map, MapWriter& writer,
-                  std::size_t blocks_at_once, const std::function<void(double)>& progress) {
+/// Sets pixels to the map's nodata value where `surface` was filled.
+void hide_filled(const Surface& surface, const MapDescription& map, int level, Block& block) {
+  float* value = block.values.data();
+  for (int y = block.y0; y < block.y0 + block.ny; ++y) {
+    for (int x = block.x0; x < block.x0 + block.nx; ++x, ++value) {
+      const auto u =
+          globe::geo::normal_from_degrees(map.window.latitude(y + 0.5), map.window.longitude(x + 0.5));
+      if (surface.is_filled(u, level)) *value = static_cast<float>(*map.nodata);
+    }
+  }
+}
+
+void write_blocks(const Surface& surface, int level, const MapSampler& sampler, const MapDescription& map,
+                  MapWriter& writer, std::size_t blocks_at_once,
+                  const std::function<void(double)>& progress) {
   const MapWindow& window = map.window;
   const int across = (window.width + writer.block_width() - 1) / writer.block_width();
   const int down = (window.height + writer.block_height() - 1) / writer.block_height();
@@ -89,6 +102,7 @@ void write_blocks(const MapSampler& sampler, const MapDescription& map, MapWrite
     block.values.resize(static_cast<std::size_t>(block.nx) * static_cast<std::size_t>(block.ny) *
                         static_cast<std::size_t>(map.channels()));
     sampler.sample(block.x0, block.y0, block.nx, block.ny, block.values.data());
+    if (map.nodata) hide_filled(surface, map, level, block);
     return block;
   };
   const auto write = [&](const Block& block) {
@@ -116,6 +130,15 @@ MapContent content_of(const Surface& surface, const ExportOptions& options) {
   return (picture && has_colors) || !surface.has_heights() ? MapContent::kColors : MapContent::kHeights;
 }
 
+void require_marks(const Surface& surface, MapContent content, const ExportOptions& options) {
+  if (content != MapContent::kHeights || options.output.extension() != ".tif")
+    throw UsageError("--nodata", "only a GeoTIFF of heights can say it", "write a .tif of heights");
+  if (surface.dataset() == nullptr || surface.dataset()->layer("void") == nullptr) {
+    throw globe::Error(surface.info().name, "it is not known which heights are filled",
+                       "convert the maps with --voids mark, or leave out --nodata");
+  }
+}
+
 Plan plan(const Surface& surface, const ExportOptions& options) {
   const std::string name = surface.info().name;
   Plan plan{};
@@ -125,6 +148,8 @@ Plan plan(const Surface& surface, const ExportOptions& options) {
     throw globe::Error(name, "the planet has no heights", "export --layer color");
   if (!heights && surface.has_data() && !surface.has_colors())
     throw globe::Error(name, "the planet has no colors", "export --layer height");
+  if (options.nodata) require_marks(surface, plan.map.content, options);
+  plan.map.nodata = options.nodata;
   plan.level = options.level ? *options.level : default_level(surface, plan.map.content, options.extent);
   plan.map.window = window_of(options, plan.level);
   const MapWindow& window = plan.map.window;
@@ -236,7 +261,7 @@ void export_map(const SurfacePointer& surface, const ExportOptions& options,
     blocks_at_once = std::clamp(options.memory_bytes / block_bytes, std::size_t{1}, blocks_at_once);
   tbb::task_arena arena(threads);
   arena.execute([&] {
-    write_blocks(sampler, plan.map, *writer, blocks_at_once, [&](double fraction) {
+    write_blocks(*surface, plan.read_level, sampler, plan.map, *writer, blocks_at_once, [&](double fraction) {
       if (listener.progress) listener.progress("writing the map", fraction);
     });
   });

@@ -25,6 +25,9 @@ struct ExportOptions {
   std::optional<Sampling> sampling;  ///< default: area where pixels are larger than cells, else linear
   /// Metres that a 16-bit picture of heights spans; default: the lowest and highest of the planet.
   std::optional<std::pair<double, double>> range;
+  /// Metres that pixels get in a GeoTIFF whose centre leans on nodes that no map had a value for
+  /// (Surface::is_filled); named in the file. NaN will do.
+  std::optional<double> nodata;
   std::size_t memory_bytes = 0;  ///< for pixels on the way to the file; 0: as many as keep the threads busy
   int threads = 0;               ///< 0: all cores
   bool overwrite = false;

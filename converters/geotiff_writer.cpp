@@ -125,6 +125,7 @@ class GeoTiffWriter : public MapWriter {
     if (map_.content == MapContent::kHeights) {
       dataset_->SetMetadataItem("VERTICAL_DATUM", map_.vertical_datum.c_str());
       dataset_->GetRasterBand(1)->SetUnitType("metre");
+      if (map_.nodata) dataset_->GetRasterBand(1)->SetNoDataValue(*map_.nodata);
       dataset_->GetRasterBand(1)->SetDescription("height");
     }
   }

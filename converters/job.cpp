@@ -12,6 +12,18 @@ int rows_per_job(int level) {
   return std::min(n, std::clamp(n / 64, kTileSize, kLargest));
 }
 
+std::string name_of(JobLayer layer) {
+  switch (layer) {
+    case JobLayer::kHeight:
+      return "height";
+    case JobLayer::kColor:
+      return "color";
+    case JobLayer::kVoid:
+      break;
+  }
+  return "void";
+}
+
 int block_rows(int level) { return nodes_per_side(level) / rows_per_job(level); }
 
 NodeRect nodes_of(const Job& job) {
@@ -20,16 +32,15 @@ NodeRect nodes_of(const Job& job) {
   return {job.d, job.level, 0, job.row * rows, nodes_per_side(job.level) + 1, rows + last};
 }
 
-std::vector<Job> jobs_of(MapKind map, int level) {
+std::vector<Job> jobs_of(JobLayer layer, int level) {
   std::vector<Job> jobs;
   for (int d = 0; d < globe::planet::kDiamonds; ++d)
-    for (int row = 0; row < block_rows(level); ++row) jobs.push_back({map, level, d, row});
+    for (int row = 0; row < block_rows(level); ++row) jobs.push_back({layer, level, d, row});
   return jobs;
 }
 
 std::string name_of(const Job& job) {
-  return std::string(job.map == MapKind::kHeights ? "height " : "color ") + std::to_string(job.d) + " " +
-         std::to_string(job.row);
+  return name_of(job.layer) + " " + std::to_string(job.d) + " " + std::to_string(job.row);
 }
 
 }  // namespace converters

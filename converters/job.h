@@ -4,17 +4,22 @@
 #include <vector>
 
 #include "converters/node_rect.h"
-#include "converters/source_map.h"
 
 namespace converters {
 
 /// Side of the tiles on disk, nodes: a clipmap's update strips touch few samples they do not need.
 inline constexpr int kTileSize = 128;
 
+/// Layers that jobs make (planet/dataset.h); those derived from heights come along with them.
+enum class JobLayer { kHeight, kColor, kVoid };
+
+/// "height", "color", "void".
+std::string name_of(JobLayer layer);
+
 /// A part of a conversion that needs no other: some rows of tiles of one diamond, at the finest level of one
-/// map's layer.
+/// layer.
 struct Job {
-  MapKind map = MapKind::kHeights;
+  JobLayer layer = JobLayer::kHeight;
   int level = 0;
   int d = 0;
   int row = 0;  ///< block row, 0 .. block_rows(level) - 1
@@ -31,7 +36,7 @@ int block_rows(int level);
 NodeRect nodes_of(const Job& job);
 
 /// Every job of a layer, in order.
-std::vector<Job> jobs_of(MapKind map, int level);
+std::vector<Job> jobs_of(JobLayer layer, int level);
 
 /// "height 2 17": layer, diamond, block row.
 std::string name_of(const Job& job);

@@ -45,9 +45,9 @@ double samples_of(const globe::planet::StoredLayer& layer) {
 }
 
 /// The tiles of a layer, by diamond.
-std::vector<std::vector<std::filesystem::path>> parts_of(MapKind map, int level, const PartFiles& files) {
+std::vector<std::vector<std::filesystem::path>> parts_of(JobLayer layer, int level, const PartFiles& files) {
   std::vector<std::vector<std::filesystem::path>> parts(kDiamonds);
-  for (const Job& job : jobs_of(map, level))
+  for (const Job& job : jobs_of(layer, level))
     parts[static_cast<std::size_t>(job.d)].push_back(files.tiles(job));
   return parts;
 }
@@ -58,7 +58,7 @@ std::vector<LayerOutput> height_layers(int level, const Range& all, const PartFi
                                        const globe::geo::Ellipsoid& ellipsoid, MemoryBudget& budget) {
   std::vector<LayerOutput> layers(4);
   layers[0].stored = {{"height", level, 1, "float32", all.min, all.max}, level, {}};
-  layers[0].parts = parts_of(MapKind::kHeights, level, files);
+  layers[0].parts = parts_of(JobLayer::kHeight, level, files);
   layers[1].stored = {{"relief", level, 1, "float32", all.min, all.max}, level - 1, {}};
   const int block_level = globe::planet::block_level(level);
   layers[2].stored = {{"height_range", block_level, 2, "float32", all.min, all.max}, block_level, {}};
@@ -92,7 +92,7 @@ LayerOutput color_layer(int level, const PartFiles& files, MemoryBudget& budget)
   constexpr int kChannels = 3;
   LayerOutput layer;
   layer.stored = {{"color", level, kChannels, "uint8", 0.0, 1.0}, level, {}};
-  layer.parts = parts_of(MapKind::kColors, level, files);
+  layer.parts = parts_of(JobLayer::kColor, level, files);
   if (level == 0) return layer;
   // The chain of levels stays in linear light, so that rounding to bytes does not add up.
   NodeGrid<float> fine(level - 1, kChannels, files.level("color"));
@@ -102,6 +102,22 @@ LayerOutput color_layer(int level, const PartFiles& files, MemoryBudget& budget)
     if (k == 0) return layer;
     NodeGrid<float> coarse(k - 1, kChannels, budget);
     filter(fine, coarse);
+    fine = std::move(coarse);
+  }
+}
+
+LayerOutput void_layer(int level, const PartFiles& files, MemoryBudget& budget) {
+  LayerOutput layer;
+  layer.stored = {{"void", level, 1, "uint8", 0.0, 1.0}, level, {}};
+  layer.parts = parts_of(JobLayer::kVoid, level, files);
+  if (level == 0) return layer;
+  NodeGrid<float> fine(level - 1, 1, files.level("void"));
+  for (int k = level - 1;; --k) {
+    layer.bytes.emplace_back(k, 1, budget);
+    encode_marks(fine, layer.bytes.back());
+    if (k == 0) return layer;
+    NodeGrid<float> coarse(k - 1, 1, budget);
+    subsample(fine, coarse);
     fine = std::move(coarse);
   }
 }

@@ -28,6 +28,9 @@ std::vector<LayerOutput> height_layers(int level, const Range& all, const PartFi
 /// "color" likewise.
 LayerOutput color_layer(int level, const PartFiles& files, MemoryBudget& budget);
 
+/// "void" likewise.
+LayerOutput void_layer(int level, const PartFiles& files, MemoryBudget& budget);
+
 /// Writes the files of the layers into a folder, one task a file, and returns what planet.json has to list.
 /// Each appears under its name when it is whole.
 std::vector<globe::planet::StoredLayer> write_layers(const std::vector<LayerOutput>& layers,

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,7 @@ struct MapDescription {
   std::string body;            ///< as PlanetInfo::body
   std::string vertical_datum;  ///< of heights
   std::vector<std::string> credits;
+  std::optional<double> nodata;  ///< of heights in a GeoTIFF
   /// Of 16-bit heights: the metres of 0 and 65535.
   double low_m = 0;
   double high_m = 1;

@@ -137,12 +137,25 @@ void mean_of_means(const NodeGrid<float>& fine, const globe::geo::Ellipsoid& ell
   });
 }
 
-void encode_colors(const NodeGrid<float>& linear, NodeGrid<std::uint8_t>& bytes) {
+namespace {
+
+template <typename Encode>
+void encode(const NodeGrid<float>& values, NodeGrid<std::uint8_t>& bytes, const Encode& byte_of) {
   const int count = bytes.side() * bytes.channels();
-  for_each_row(linear, bytes, [&](int d, int j) {
-    const float* from = linear.at(d, 0, j);
-    std::transform(from, from + count, bytes.at(d, 0, j), srgb_byte_from_linear);
+  for_each_row(values, bytes, [&](int d, int j) {
+    const float* from = values.at(d, 0, j);
+    std::transform(from, from + count, bytes.at(d, 0, j), byte_of);
   });
+}
+
+}  // namespace
+
+void encode_colors(const NodeGrid<float>& linear, NodeGrid<std::uint8_t>& bytes) {
+  encode(linear, bytes, srgb_byte_from_linear);
+}
+
+void encode_marks(const NodeGrid<float>& marks, NodeGrid<std::uint8_t>& bytes) {
+  encode(marks, bytes, mark_byte);
 }
 
 }  // namespace converters

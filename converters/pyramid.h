@@ -27,6 +27,10 @@ void mean_of_means(const NodeGrid<float>& fine, const globe::geo::Ellipsoid& ell
 /// sRGB bytes of linear light.
 void encode_colors(const NodeGrid<float>& linear, NodeGrid<std::uint8_t>& bytes);
 
+/// A mark, 0 or 1, as a layer stores it.
+inline std::uint8_t mark_byte(float mark) { return mark > 0.5F ? 255 : 0; }
+void encode_marks(const NodeGrid<float>& marks, NodeGrid<std::uint8_t>& bytes);
+
 struct Range {
   double min, max;
 };

@@ -54,6 +54,7 @@ std::string recipe_of(const ConvertOptions& options) {
                              })},
       {"latitude", static_cast<int>(options.latitude)},
       {"voids", static_cast<int>(options.voids)},
+      {"mark_voids", options.mark_voids},
       {"geoid", options.geoid},
       {"datum", optional(options.datum, [](const std::string& name) { return name; })},
       {"as_thesis", options.as_thesis},

@@ -52,7 +52,7 @@ inline void write_node_planet(const std::filesystem::path& folder, int level,
     }
   };
   converters::Range all{1e9, -1e9};
-  for (const converters::Job& job : converters::jobs_of(converters::MapKind::kHeights, level)) {
+  for (const converters::Job& job : converters::jobs_of(converters::JobLayer::kHeight, level)) {
     const converters::Range range = converters::run_job(job, nodes, ellipsoid, parts, [](double) {});
     all = {std::min(all.min, range.min), std::max(all.max, range.max)};
   }

@@ -29,6 +29,8 @@ namespace globe::planet {
 /// weighted by
 ///   true area (mean_height.h); the same cells and levels as "height_range". Older planets lack it.
 /// - "color": three channels of sRGB, coarser levels filtered in linear light.
+/// - "void": one channel, 1 where no map had a height for the node, which was filled from around it; else 0.
+/// The level of "height", coarser levels by sub-sampling. Only planets that were converted so have it.
 struct LayerInfo {
   std::string name;
   int level = 0;

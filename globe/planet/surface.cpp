@@ -354,6 +354,18 @@ DataSource Surface::data_at(const dvec3& u) const {
   return {std::max(found.level, data_level_), info_.insets[*found.inset].name, found.alone};
 }
 
+bool Surface::is_filled(const dvec3& u, int level) const {
+  if (dataset_ == nullptr || dataset_->layer("void") == nullptr || insets_->data_at(u, "height").inset)
+    return false;
+  level = std::min(level, data_level_);
+  const Place place = locate(u, level);
+  return trixel_nodes(place.d, level, place.ij).sum([&](const Node& node) {
+    float mark = 0.0f;
+    dataset_->read("void", node.d, level, node.i, node.j, 1, 1, &mark);
+    return static_cast<double>(mark);
+  }) > 0.0;
+}
+
 int Surface::color_level_at(const dvec3& u) const {
   return std::max(color_level_, insets_->data_at(u, "color").level);
 }

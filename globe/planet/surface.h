@@ -101,6 +101,9 @@ class Surface {
   void data_heights(int d, int level, int i0, int j0, int ni, int nj, double* out) const;
   /// The finest data at a place: data_level() but where there are insets.
   DataSource data_at(const dvec3& u) const;
+  /// True where a height of the level, at most the data's, leans on a node that no map had a value for. Known
+  /// of planets with a layer "void" only.
+  bool is_filled(const dvec3& u, int level) const;
   /// Finest level of the colors there; -1 without any.
   int color_level_at(const dvec3& u) const;
   /// Height of the flat level-L trixel above a direction: linear between its three nodes.

@@ -1,3 +1,4 @@
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -122,6 +123,66 @@ TEST_F(ConvertInputs, OfARegionAloneLeaveTheRestAtZeroAndSaySo) {
   EXPECT_EQ(height(planet_, "30 30"), 0.0);
 }
 
+TEST_F(ConvertInputs, VoidsThatAreMarkedAreKnownAsFilledFromThenOn) {
+  const std::string map = region(500).write(folder_ / "region.asc");
+  ASSERT_EQ(convert({map, "--level", "7", "--quiet", "--voids", "mark"}, planet_).status, 0);
+  const auto source = [&](const std::string& place, const std::vector<std::string>& options) {
+    std::vector<std::string> words{"height", planet_, place, "--json"};
+    words.insert(words.end(), options.begin(), options.end());
+    const nlohmann::json answer = nlohmann::json::parse(run_program(words).out);
+    EXPECT_EQ(answer["error_m"].is_null(), answer["source"] == "filled" || answer["source"] == "synthesised");
+    return answer["source"].get<std::string>();
+  };
+  EXPECT_EQ(source("24 24", {}), "data");
+  EXPECT_EQ(source("30 30", {}), "filled");
+  EXPECT_EQ(source("30 30", {"--level", "5"}), "filled");
+  EXPECT_EQ(source("-10 100", {}), "filled") << "no map there";
+  EXPECT_EQ(source("30 30", {"--level", "12"}), "synthesised");
+  EXPECT_EQ(height(planet_, "30 30"), 500.5) << "drawn and answered as though it were filled";
+  EXPECT_EQ(run_program({"info", planet_, "--verify"}).status, 0);
+
+  // As a map again, with the voids it had: half a degree a pixel, so those within a node of the hole go too.
+  const std::string back = (folder_ / "back.asc.tif").string();
+  ASSERT_EQ(run_program({"export", planet_, "-o", back, "--size", "40x40", "--extent", "20,20,40,40",
+                         "--nodata", "-9999", "--quiet"})
+                .status,
+            0);
+  const auto input = OIIO::ImageInput::open(back);
+  std::vector<float> pixels(40 * 40);
+  ASSERT_TRUE(input && input->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, pixels.data()));
+  const auto at = [&](double lat, double lon) {
+    return pixels[static_cast<std::size_t>((40 - lat) * 2) * 40 + static_cast<std::size_t>((lon - 20) * 2)];
+  };
+  int hidden = 0;
+  for (double lon = 20.25; lon < 40; lon += 0.5) {
+    const bool in_hole = std::abs(lon - 30)<3.5, on_land = std::abs(lon - 30)> 5.5 && std::abs(lon - 30) < 9;
+    const float value = at(30.25, lon);
+    hidden += value == -9999.0F;
+    EXPECT_TRUE(!in_hole || value == -9999.0F) << lon;
+    EXPECT_TRUE(!on_land || value == 500.5F) << lon << " " << value;
+  }
+  EXPECT_GE(hidden, 14);
+  // It goes back as it came.
+  ASSERT_EQ(convert({back, "--level", "6", "--quiet", "--voids", "mark"}, planet_).status, 0);
+  EXPECT_EQ(source("30 30", {}), "filled");
+  EXPECT_EQ(source("24 24", {}), "data");
+
+  // A finer map laid over the void is data.
+  const Grid patch{40, 40, 29, 29, 0.05, [](double, double) { return 7.0; }};
+  ASSERT_EQ(run_program({"inset", planet_, patch.write(folder_ / "patch.asc"), "--quiet"}).status, 0);
+  EXPECT_EQ(source("30 30", {}), "patch");
+}
+
+TEST_F(ConvertInputs, WithoutMarksNothingIsKnownAsFilled) {
+  const std::string map = region(500).write(folder_ / "region.asc");
+  ASSERT_EQ(convert({map, "--level", "6", "--quiet"}, planet_).status, 0);
+  const nlohmann::json answer =
+      nlohmann::json::parse(run_program({"height", planet_, "30 30", "--json"}).out);
+  EXPECT_EQ(answer["source"], "data");
+  cli::expect_refusals("export", {{{planet_, "-o", (folder_ / "a.tif").string(), "--nodata", "0"}, 1},
+                                  {{planet_, "-o", (folder_ / "a.exr").string(), "--nodata", "0"}, 2}});
+}
+
 TEST_F(ConvertInputs, CountFromTheEllipsoidWithAGeoid) {
   const std::string map = world(100).write(folder_ / "world.asc");
   const std::string geoid = world(30).write(folder_ / "geoid.asc");
@@ -160,7 +221,7 @@ TEST_F(ConvertInputs, HearWhatIsSaidOfAllOrOfEach) {
                        {{{below, above, "-o", planet_, "--scale", "1", "--scale", "1", "--scale", "1"}, 2},
                         {{below, "-o", planet_, "--crs", "atlantis", "--overwrite", "--quiet"}, 2},
                         {{below, "-o", planet_, "--units", "cubits"}, 2},
-                        {{below, "-o", planet_, "--voids", "mark"}, 2},
+                        {{below, "-o", planet_, "--voids", "keep"}, 2},
                         {{below, "-o", planet_, "--scale", "big"}, 2}});
 }
 

@@ -38,8 +38,8 @@ struct Done {
   Range range{1e9, -1e9};
 
   Done(int level, Filter chosen, SourceMap source) : filter(chosen), map(std::move(source)) {
-    const MapKind kind = map.channels() == 1 ? MapKind::kHeights : MapKind::kColors;
-    std::vector<Job> jobs = jobs_of(kind, level);
+    const JobLayer layer = map.channels() == 1 ? JobLayer::kHeight : JobLayer::kColor;
+    std::vector<Job> jobs = jobs_of(layer, level);
     std::reverse(jobs.begin(), jobs.end());  // their order is nobody's business
     for (const Job& job : jobs) {
       const NodeSource nodes = [&](const NodeRect& rect, const RowSink& sink) {
@@ -70,7 +70,7 @@ TEST(Job, CoversEveryNodeOfALevelOnce) {
   for (const int level : {0, 1, 6, 7, 8, 11, 14, 15, 18}) {
     const int n = nodes_per_side(level);
     int next = 0, d = 0;
-    for (const Job& job : jobs_of(MapKind::kHeights, level)) {
+    for (const Job& job : jobs_of(JobLayer::kHeight, level)) {
       const NodeRect rect = nodes_of(job);
       if (job.d != d) {
         EXPECT_EQ(next, n + 1);
