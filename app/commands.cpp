@@ -23,6 +23,7 @@ void add_commands(CLI::App& program, int& exit_status) {
   add_distance(program, exit_status);
   add_index(program, exit_status);
   add_find(program);
+  add_pick(program, exit_status);
   add_profile(program);
   add_sight(program, exit_status);
   add_summary(program);

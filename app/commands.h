@@ -29,6 +29,7 @@ void add_cover(CLI::App& program);
 void add_export(CLI::App& program);
 void add_find(CLI::App& program);
 void add_fly(CLI::App& program);
+void add_pick(CLI::App& program, int& exit_status);
 void add_profile(CLI::App& program);
 void add_shot(CLI::App& program);
 void add_summary(CLI::App& program);

@@ -5,9 +5,10 @@
 #include "app/commands.h"
 #include "app/image_file.h"
 #include "app/planet_argument.h"
-#include "app/point.h"
+#include "app/standing_camera.h"
 #include "app/view_options.h"
 #include "globe/base/error.h"
+#include "globe/clipmap/ground_below.h"
 #include "globe/gl/context.h"
 #include "globe/gl/framebuffer.h"
 #include "globe/render/camera.h"
@@ -15,8 +16,6 @@
 
 namespace app {
 namespace {
-
-constexpr double kLeastHeight = 2.0;  ///< metres: a camera below ground is raised to this
 
 struct ShotOptions {
   ViewOptions view;
@@ -56,7 +55,7 @@ void run(const ShotOptions& options) {
   const ViewOptions& view = options.view;
   const Size size = parse_size(view.size);
   const Look look = view.look.empty() ? Look{0.0, -90.0} : parse_look(view.look);
-  Point at = parse_point(options.at);
+  const Point at = parse_point(options.at);
   const render::RenderSettings settings = render_settings(view);
   if (!view.overwrite && std::filesystem::exists(view.output)) {
     throw globe::Error(view.output, "the file exists", "give another name or --overwrite");
@@ -70,27 +69,18 @@ void run(const ShotOptions& options) {
   format.samples = view.samples;
   const globe::gl::Framebuffer target(size.width, size.height, format);
 
-  const auto camera_at = [&](const globe::geo::Geodetic& place) {
-    return render::make_camera(surface->ellipsoid(), place, look.heading_deg, look.pitch_deg, view.fov_deg,
-                               static_cast<double>(size.width) / size.height);
-  };
-  globe::geo::Geodetic place = at.position;
-  const double given = place.h_m;
-  if (view.agl) place.h_m += given - renderer.height_above_ground(camera_at(place).position);
-  const double above = renderer.height_above_ground(camera_at(place).position);
-  if (above < kLeastHeight) {
-    if (!view.agl || given < kLeastHeight) {
-      std::fprintf(stderr, "globe: warning: the camera is %.1f m below %.0f m above ground; raised\n",
-                   kLeastHeight - above, kLeastHeight);
-    }
-    place.h_m += kLeastHeight - above;
-  }
-  const render::Camera camera = camera_at(place);
+  const globe::geo::Geodetic place =
+      standing_place(at, view.agl, surface->ellipsoid(),
+                     [&](const glm::dvec3& position) { return renderer.height_above_ground(position); });
+  const render::Camera camera =
+      render::make_camera(surface->ellipsoid(), place, look.heading_deg, look.pitch_deg, view.fov_deg,
+                          static_cast<double>(size.width) / size.height);
   renderer.draw(camera, sun, true, target);
   if (view.show == "depth") {
     write_depth(view, size, target.read_depth(),
                 render::near_distance(surface->ellipsoid(),
-                                      std::max(renderer.height_above_ground(camera.position), 0.1)));
+                                      std::max(renderer.height_above_ground(camera.position),
+                                               globe::clipmap::least_above_ground(surface->ellipsoid()))));
   } else if (view.output.ends_with(".exr")) {
     const std::vector<float> rgba = target.read_rgba_float();
     write_image(view.output, size.width, size.height, {"R", "G", "B", "A"}, rgba, view.overwrite);

@@ -40,10 +40,9 @@ glm::vec3 parse_color(const std::string& text) {
 
 }  // namespace
 
-void add_view_options(CLI::App& command, ViewOptions& options) {
+void add_camera_options(CLI::App& command, CameraOptions& options) {
   command.add_option("PLANET", options.planet, "folder made by globe convert, or procedural[:SEED]")
       ->required();
-  command.add_option("-o,--output", options.output, "file to write")->required();
   command.add_flag("--agl", options.agl, "altitudes count from the ground");
   command.add_option("--look", options.look, "HEADING,PITCH in degrees; -90 down, 0 level");
   command.add_option("--size", options.size, "WxH in pixels")->capture_default_str();
@@ -54,6 +53,11 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
                      "UTC date and time of the sun, ISO 8601 (default: 10:00 local solar time, 21 March)");
   command.add_option("--detail", options.detail, "side of the hexagons in cells, 16 to 1024")
       ->capture_default_str();
+}
+
+void add_view_options(CLI::App& command, ViewOptions& options) {
+  add_camera_options(command, options);
+  command.add_option("-o,--output", options.output, "file to write")->required();
   command.add_option("--samples", options.samples, "samples a pixel")
       ->capture_default_str()
       ->check(CLI::IsMember({1, 4}));
@@ -101,7 +105,8 @@ globe::render::RenderSettings render_settings(const ViewOptions& options) {
   return settings;
 }
 
-glm::dvec3 sun_for(const ViewOptions& options, const globe::planet::Surface& surface, double target_lon_deg) {
+glm::dvec3 sun_for(const CameraOptions& options, const globe::planet::Surface& surface,
+                   double target_lon_deg) {
   if (options.time.empty()) return globe::geo::morning_sun(target_lon_deg);
   const std::string& body = surface.info().body;
   if (body == "moon" || body == "mars") {

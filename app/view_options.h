@@ -11,20 +11,26 @@
 
 namespace app {
 
-/// The options that `shot` and `fly` share (COMMANDS.md, Pictures).
-struct ViewOptions {
+/// What says which planet a camera sees and how: options that `pick` shares with `shot` and `fly`.
+struct CameraOptions {
   std::string planet;
-  std::string output;
   std::string look;
   std::string size = "1280x720";
   double fov_deg = 60.0;
   std::string time;
   int detail = 64;
+  bool agl = false;
+};
+
+void add_camera_options(CLI::App& command, CameraOptions& options);
+
+/// The options that `shot` and `fly` share (COMMANDS.md, Pictures).
+struct ViewOptions : CameraOptions {
+  std::string output;
   int samples = 1;
   std::string background;
   bool wireframe = false;
   std::string show;
-  bool agl = false;
   bool overwrite = false;
   bool quiet = false;
   std::string device = "auto";
@@ -51,6 +57,7 @@ Size parse_size(const std::string& text);
 globe::render::RenderSettings render_settings(const ViewOptions& options);
 
 /// Toward the sun at --time, or at 10:00 local solar time at the target.
-glm::dvec3 sun_for(const ViewOptions& options, const globe::planet::Surface& surface, double target_lon_deg);
+glm::dvec3 sun_for(const CameraOptions& options, const globe::planet::Surface& surface,
+                   double target_lon_deg);
 
 }  // namespace app

@@ -29,11 +29,7 @@ std::size_t at(const NodeRect& rect, int i, int j) {
          static_cast<std::size_t>(i - rect.i0);
 }
 
-/// Positions of a rectangle of nodes, ECEF metres from the anchor in double, with the drawn height in w.
-struct PositionGrid {
-  NodeRect rect;
-  std::vector<glm::dvec4> values;
-};
+}  // namespace
 
 PositionGrid exact_positions(const Surface& surface, int level, int d, const NodeRect& rect,
                              const dvec3& anchor) {
@@ -61,6 +57,8 @@ PositionGrid exact_positions(const Surface& surface, int level, int d, const Nod
   return grid;
 }
 
+namespace {
+
 /// Grown to even corners on every side, so that both ends of every halved edge are inside.
 NodeRect with_parents(const NodeRect& rect, int n) {
   const auto down = [](int x) { return x & ~1; };
@@ -78,15 +76,15 @@ VertexBlock make_vertex_block(const Surface& surface, int level, int d, const No
   block.coarse.reserve(count);
   for (int j = rect.j0; j <= rect.j1; ++j) {
     for (int i = rect.i0; i <= rect.i1; ++i) {
-      const glm::dvec4& own = grid.values[at(grid.rect, i, j)];
+      const glm::dvec4& own = grid.at(i, j);
       block.position.emplace_back(own);
       if (((i | j) & 1) == 0) {
         block.coarse.emplace_back(own);
         continue;
       }
       const auto ends = planet::halved_edge(i, j);
-      const glm::dvec4& a = grid.values[at(grid.rect, ends[0].x, ends[0].y)];
-      const glm::dvec4& b = grid.values[at(grid.rect, ends[1].x, ends[1].y)];
+      const glm::dvec4& a = grid.at(ends[0].x, ends[0].y);
+      const glm::dvec4& b = grid.at(ends[1].x, ends[1].y);
       block.coarse.emplace_back((a + b) * 0.5);
     }
   }

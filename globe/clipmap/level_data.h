@@ -76,6 +76,19 @@ struct LevelUpdate {
 /// lattice of the largest power of two up to 2s cells.
 dvec3 level_anchor(const Settings& settings, const planet::Surface& surface, const Region& region);
 
+/// Positions of a rectangle of nodes in double, ECEF metres from an anchor, with the drawn height in w.
+struct PositionGrid {
+  NodeRect nodes;
+  std::vector<glm::dvec4> values;  ///< row by row, i fastest
+
+  const glm::dvec4& at(int i, int j) const {
+    return values[static_cast<std::size_t>(j - nodes.j0) * static_cast<std::size_t>(nodes.width()) +
+                  static_cast<std::size_t>(i - nodes.i0)];
+  }
+};
+PositionGrid exact_positions(const planet::Surface& surface, int level, int d, const NodeRect& nodes,
+                             const dvec3& anchor);
+
 /// Computes what a level needs for `region`: only nodes that `before` (null: nothing) does not hold, unless
 /// the anchor or the light changed. Positions in double, rounded once. Safe to call from any thread.
 LevelUpdate update_level(const Settings& settings, const planet::Surface& surface, Region region,

@@ -22,6 +22,11 @@ Camera make_camera(const geo::Ellipsoid& ellipsoid, const geo::Geodetic& place, 
   return camera;
 }
 
+dvec3 direction_through(const Camera& camera, double x, double y) {
+  return glm::normalize(camera.forward + camera.right * (camera.tan_x() * (2.0 * x - 1.0)) +
+                        camera.up * (camera.tan_y() * (1.0 - 2.0 * y)));
+}
+
 dmat4 clip_from_relative(const Camera& camera, double near_m) {
   const double x = 1.0 / camera.tan_x();
   const double y = 1.0 / camera.tan_y();

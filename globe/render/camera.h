@@ -29,6 +29,9 @@ struct Camera {
 Camera make_camera(const geo::Ellipsoid& ellipsoid, const geo::Geodetic& place, double heading_deg,
                    double pitch_deg, double fov_y_deg, double aspect);
 
+/// Unit direction through a point of the picture: x from its left edge, y from its top, each 0 to 1.
+dvec3 direction_through(const Camera& camera, double x, double y);
+
 /// Clip space of camera-relative positions: reversed depth with the far plane at infinity, near / distance in
 /// [0, 1] (glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE)). No translation: positions come relative to the
 /// camera.

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "globe/clipmap/ground_below.h"
 #include "globe/clipmap/morph.h"
 #include "globe/render/view_block.h"
 
@@ -63,19 +64,7 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
 }
 
 double GlobeRenderer::height_above_ground(const glm::dvec3& position, bool wait) const {
-  const geo::Geodetic place = geo::geodetic_from_ecef(surface_->ellipsoid(), position);
-  const glm::dvec3 u = geo::normal_from_degrees(place.lat_deg, place.lon_deg);
-  const auto drawn = [&](int level) {
-    const double h = wait ? surface_->height(u, level) : surface_->height_at_hand(u, level);
-    return place.h_m - surface_->drawn_height(h);
-  };
-  double above = drawn(settings_.clipmap.base_level);
-  for (int k = 0; k < 3; ++k) {
-    const auto finest = clipmap::finest_level(settings_.clipmap, surface_->root_edge(), std::max(above, 0.5),
-                                              settings_.max_level);
-    above = drawn(finest.level);
-  }
-  return above;
+  return clipmap::height_above_ground(settings_.clipmap, *surface_, position, settings_.max_level, wait);
 }
 
 std::size_t GlobeRenderer::load(const clipmap::Target& target, bool wait) {
@@ -138,7 +127,8 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
 FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool wait,
                                const gl::Framebuffer& target) {
   FrameStats stats;
-  const double above = std::max(height_above_ground(camera.position, wait), 0.1);
+  const double above = std::max(height_above_ground(camera.position, wait),
+                                clipmap::least_above_ground(surface_->ellipsoid()));
   const auto finest =
       clipmap::finest_level(settings_.clipmap, surface_->root_edge(), above, settings_.max_level);
   const geo::Geodetic place = geo::geodetic_from_ecef(surface_->ellipsoid(), camera.position);
