@@ -114,6 +114,26 @@ std::uint8_t encode_albedo(float linear) {
 /// How much of the sea floor's relief is seen through the water above it.
 double water_clarity(double height) { return std::exp(height / 25.0); }
 
+/// Nodes on the edges of trixels down to this level, where the lattice bends too much for one metric: by 90
+/// degrees about the octahedron's corners, by 1 % on the edges of level 3.
+constexpr int kBentLevel = 3;
+
+bool is_bent(const TileId& id, int i, int j) {
+  const int n = planet::nodes_per_side(id.level);
+  const int within = (n >> std::min(kBentLevel, id.level)) - 1;
+  return (i & within) == 0 || (j & within) == 0 || ((i + j) & within) == 0;
+}
+
+/// Slope and cavity of a bent node.
+void take_exact_slope(const Surface& surface, const SurfaceTile& tile, int i, int j, planet::Ground& ground) {
+  const planet::GroundSlope slope = planet::exact_slope(surface, tile, i, j);
+  const dvec3 u = planet::node_direction({tile.id.d, tile.id.level, i, j});
+  const dvec3 axis = shading_axis(tile.id.d);
+  const dvec3 t1 = glm::normalize(axis - u * glm::dot(u, axis));
+  ground.slope = {glm::dot(slope.gradient, t1), glm::dot(slope.gradient, glm::cross(u, t1))};
+  ground.cavity = slope.cavity;
+}
+
 void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const NodeRect& part,
                      const NodeRect& held, ShadingNodes& ground_nodes) {
   const TileId& id = tile.id;
@@ -133,6 +153,7 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
       planet::Ground ground = planet::tile_ground(surface, tile, i, j);
       ground.slope = metric.a * di + metric.b * dj;
       ground.cavity = (own - (e + w + s + n + se + ne) / 6.0) / edge;
+      if (is_bent(id, i, j)) take_exact_slope(surface, tile, i, j, ground);
       ground.sin_latitude = metrics.sin_latitude(i, j);
       const bool water = sea && ground.height_m < 0.0;
       const glm::vec3 color = planet::albedo(ground);

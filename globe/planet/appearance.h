@@ -37,6 +37,11 @@ struct GroundSlope {
 GroundSlope slope_at(const Surface& surface, const SurfaceTile& tile, const TileValues<dvec3>& directions,
                      int i, int j);
 
+/// Slope of a tile's shading_height at one of its nodes: of the plane through the node that fits its
+/// neighbours best where they truly lie. The same, but for rounding, by every name of the node, and right
+/// where the lattice has a kink, the octahedron's corners with their four neighbours included.
+GroundSlope exact_slope(const Surface& surface, const SurfaceTile& tile, int i, int j);
+
 /// What a tile itself knows of a node for albedo: all but slope, cavity and latitude.
 Ground tile_ground(const Surface& surface, const SurfaceTile& tile, int i, int j);
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -27,6 +29,37 @@ GroundSlope slope_at(const Surface& surface, const SurfaceTile& tile, const Tile
                       6.0;
   result.cavity = (seen(i, j) - mean) / std::ldexp(surface.root_edge(), -tile.id.level);
   return result;
+}
+
+GroundSlope exact_slope(const Surface& surface, const SurfaceTile& tile, int i, int j) {
+  const TileValues<double>& h = tile.shading_height();
+  const Node own{tile.id.d, tile.id.level, i, j};
+  const dvec3 u = node_direction(own);
+  const dvec3 place = geo::surface_point(surface.ellipsoid(), u);
+  const dvec3 t1 = glm::normalize(glm::cross(u, std::abs(u.z) < 0.7 ? dvec3(0, 0, 1) : dvec3(1, 0, 0)));
+  const dvec3 t2 = glm::cross(u, t1);
+  std::array<ivec3, kLatticeSteps.size()> met{};
+  std::size_t count = 0;
+  double rises = 0.0;
+  double xx = 0.0, xy = 0.0, yy = 0.0, xh = 0.0, yh = 0.0;
+  for (const ivec2& step : kLatticeSteps) {
+    const Node node = fold({own.d, own.level, i + step.x, j + step.y});
+    const ivec3 key = octahedral_key(node);
+    const auto end = met.begin() + static_cast<std::ptrdiff_t>(count);
+    if (std::find(met.begin(), end, key) != end) continue;  // around a corner of the octahedron
+    met[count++] = key;
+    const dvec3 away = geo::surface_point(surface.ellipsoid(), node_direction(node)) - place;
+    const double x = glm::dot(away, t1), y = glm::dot(away, t2);
+    const double rise = h.at(i + step.x, j + step.y) - h.at(i, j);
+    rises += rise;
+    xx += x * x;
+    xy += x * y;
+    yy += y * y;
+    xh += x * rise;
+    yh += y * rise;
+  }
+  return {(t1 * (yy * xh - xy * yh) + t2 * (xx * yh - xy * xh)) / (xx * yy - xy * xy),
+          -rises / static_cast<double>(count) / std::ldexp(surface.root_edge(), -tile.id.level)};
 }
 
 Ground tile_ground(const Surface& surface, const SurfaceTile& tile, int i, int j) {

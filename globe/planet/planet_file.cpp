@@ -218,7 +218,8 @@ bool is_inset_name(const std::string& name) {
            c == '_' || c == '-';
   };
   return !name.empty() && name.size() <= 64 && name.front() != '.' &&
-         std::all_of(name.begin(), name.end(), allowed) && name != "data" && name != "filled" && name != "synthesised";
+         std::all_of(name.begin(), name.end(), allowed) && name != "data" && name != "filled" &&
+         name != "synthesised";
 }
 
 PlanetFile read_planet_file(const std::filesystem::path& folder) {
