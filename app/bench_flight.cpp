@@ -20,6 +20,8 @@ namespace {
 
 namespace render = globe::render;
 namespace geo = globe::geo;
+using globe::clipmap::Positions;
+using globe::clipmap::Settings;
 
 constexpr int kWidth = 1280;
 constexpr int kHeight = 720;
@@ -52,16 +54,16 @@ struct World {
 
 /// Draws the flight as in real time: what is there is drawn, what is missing loads meanwhile.
 struct FlightRun {
-  FlightRun(std::shared_ptr<World> shared, int detail)
-      : world(std::move(shared)), renderer(world->surface, settings(detail)), target(kWidth, kHeight) {
+  FlightRun(std::shared_ptr<World> shared, const Settings& settings)
+      : world(std::move(shared)), renderer(world->surface, ground(settings)), target(kWidth, kHeight) {
     renderer.warm_up(target);
     renderer.draw(world->camera(0), world->sun, true, target);
     glFinish();
   }
 
-  static render::RenderSettings settings(int detail) {
+  static render::RenderSettings ground(const Settings& settings) {
     render::RenderSettings result;
-    result.clipmap = globe::clipmap::Settings::for_detail(detail);
+    result.clipmap = settings;
     return result;
   }
 
@@ -80,7 +82,7 @@ struct FlightRun {
 /// For every round as many triangles as the flight at detail 64 draws in it, in steps of 4 blocks.
 struct RawRun {
   explicit RawRun(std::shared_ptr<World> shared) : world(std::move(shared)) {
-    FlightRun flight(world, 64);
+    FlightRun flight(world, Settings::for_detail(64));
     for (int k = 0; k < world->rounds; ++k) {
       const std::size_t triangles =
           flight.renderer.draw(world->camera(k), world->sun, true, flight.target).triangles;
@@ -113,16 +115,22 @@ std::vector<BenchmarkEntry> flight_benchmarks(int rounds) {
     return *shared;
   };
   std::vector<BenchmarkEntry> entries;
-  for (const int detail : {32, 64, 128}) {
-    const std::string name = "fly.detail" + std::to_string(detail);
+  const auto add = [&](const std::string& name, const Settings& settings) {
     entries.push_back({name, [=] {
-                         auto flight = std::make_shared<FlightRun>(world(), detail);
+                         auto flight = std::make_shared<FlightRun>(world(), settings);
                          const auto settle = [flight] {
                            while (flight->renderer.is_loading())
                              std::this_thread::sleep_for(std::chrono::milliseconds(1));
                          };
                          return Benchmark{name, 1, [flight] { flight->draw_next(); }, settle};
                        }});
+  };
+  for (const int detail : {32, 64, 128})
+    add("fly.detail" + std::to_string(detail), Settings::for_detail(detail));
+  for (const Positions positions : {Positions::kQuadratic, Positions::kChord, Positions::kFloat32}) {
+    Settings settings = Settings::for_detail(64);
+    settings.positions = positions;
+    add("fly.detail64." + std::string(globe::clipmap::name_of(positions)), settings);
   }
   entries.push_back({"fly.raw_gl", [=] {
                        auto raw = std::make_shared<RawRun>(world());

@@ -145,6 +145,24 @@ Benchmark strip_update() {
           [=] { clipmap::update_level(settings, *surface, moved, {}, from->data.get()); }};
 }
 
+/// The vertices of a level filled from nothing, tiles under them already made.
+Benchmark vertex_fill(clipmap::Positions positions) {
+  auto surface = planet::Surface::builtin(1);
+  clipmap::Settings settings = clipmap::Settings::for_detail(64);
+  settings.positions = positions;
+  const clipmap::Region region =
+      clipmap::make_region(settings, clipmap::nadir(globe::geo::normal_from_degrees(20.0, 30.0), 16));
+  const dvec3 anchor = clipmap::level_anchor(settings, *surface, region);
+  const auto fill = [=] {
+    for (int d = 0; d < planet::kDiamonds; ++d) {
+      const auto& nodes = region.nodes[static_cast<std::size_t>(d)];
+      if (!nodes.empty()) clipmap::make_vertex_block(settings, *surface, 16, d, nodes, anchor);
+    }
+  };
+  fill();
+  return {"clipmap.vertex_fill.l16." + std::string(clipmap::name_of(positions)), 1, fill};
+}
+
 /// A tile of synthesised ground whose parent is at hand.
 Benchmark ground_tile(int level) {
   return {"planet.ground_tile.l" + std::to_string(level), planet::kTileCells * planet::kTileCells,
@@ -200,6 +218,10 @@ std::vector<BenchmarkEntry> geometry_benchmarks() {
           {"planet.ground_tile.l12", [] { return ground_tile(12); }},
           {"planet.ground_tile.l22", [] { return ground_tile(22); }},
           {"clipmap.strip_update.l16", strip_update},
+          {"clipmap.vertex_fill.l16.exact", [] { return vertex_fill(clipmap::Positions::kExact); }},
+          {"clipmap.vertex_fill.l16.quadratic", [] { return vertex_fill(clipmap::Positions::kQuadratic); }},
+          {"clipmap.vertex_fill.l16.chord", [] { return vertex_fill(clipmap::Positions::kChord); }},
+          {"clipmap.vertex_fill.l16.float32", [] { return vertex_fill(clipmap::Positions::kFloat32); }},
           {"convert.bilinear", convert_bilinear}};
 }
 

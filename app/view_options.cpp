@@ -65,6 +65,10 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
   command.add_flag("--wireframe", options.wireframe, "draw the triangles");
   command.add_option("--show", options.show, "levels, patches, normals or depth")
       ->check(CLI::IsMember({"levels", "patches", "normals", "depth"}));
+  command
+      .add_option("--positions", options.positions,
+                  "places of vertices: exact; or, to see what accuracy costs, quadratic, chord or float32")
+      ->capture_default_str();
   command.add_flag("--overwrite", options.overwrite, "replace existing output");
   command.add_flag("--quiet", options.quiet, "warnings and errors only");
   command.add_option("--device", options.device, "auto, software, or the number of an EGL device")
@@ -97,6 +101,12 @@ Size parse_size(const std::string& text) {
 globe::render::RenderSettings render_settings(const ViewOptions& options) {
   globe::render::RenderSettings settings;
   settings.clipmap = globe::clipmap::Settings::for_detail(options.detail);
+  const auto positions = globe::clipmap::positions_by_name(options.positions);
+  if (!positions) {
+    throw UsageError("--positions " + options.positions, "no such way to place vertices",
+                     "give exact, quadratic, chord or float32");
+  }
+  settings.clipmap.positions = *positions;
   settings.wireframe = options.wireframe;
   if (options.show == "levels") settings.show = globe::render::Show::kLevels;
   if (options.show == "patches") settings.show = globe::render::Show::kPatches;

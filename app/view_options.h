@@ -31,6 +31,7 @@ struct ViewOptions : CameraOptions {
   std::string background;
   bool wireframe = false;
   std::string show;
+  std::string positions = "exact";
   bool overwrite = false;
   bool quiet = false;
   std::string device = "auto";

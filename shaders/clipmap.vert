@@ -15,9 +15,6 @@ struct Slot {
 };
 layout(std140, binding = 1) uniform Slots { Slot slots[MAX_SLOTS]; };
 
-layout(binding = 0) uniform sampler2DArray positions;
-layout(binding = 1) uniform sampler2DArray coarse_positions;
-
 layout(location = 0) in uvec2 local;     // cells from corner 0 of the patch
 layout(location = 1) in ivec4 instance;  // corner 0 from the window's first node (i, j), ±1 for the half, slot
 
@@ -52,13 +49,18 @@ bool on_rim(ivec2 ab) {
 }
 #endif
 
+#ifdef KNOTS_A_PATCH
+#include "lib/interpolated_vertices.glsl"
+#else
+#include "lib/stored_vertices.glsl"
+#endif
+
 void main() {
   int slot_index = instance.w;
   Slot slot = slots[slot_index];
   ivec2 ab = ivec2(local);
   ivec2 node = instance.xy + instance.z * ab;
-  ivec3 texel = ivec3(torus_texel(node, slot.torus.xy, window.x), slot.torus.z);
-  vec4 fine = texelFetch(positions, texel, 0);
+  vec4 fine = fine_vertex(ab, slot);
   precise vec3 position = fine.xyz;
   float height = fine.w;
 
@@ -67,7 +69,7 @@ void main() {
   int distance = min(min(hex_length(p - slot.images_a.xy), hex_length(p - slot.images_a.zw)),
                      min(hex_length(p - slot.images_b.xy), hex_length(p - slot.images_b.zw)));
   float alpha = max(morph_factor(distance, window.y, window.z), slot.offset.w);
-  vec4 target = texelFetch(coarse_positions, texel, 0);
+  vec4 target = coarse_vertex(ab, slot);
   position = vec3(exact_mix(position.x, target.x, alpha), exact_mix(position.y, target.y, alpha),
                   exact_mix(position.z, target.z, alpha));
   height = mix(height, target.w, alpha);
@@ -83,8 +85,7 @@ void main() {
 
 #ifdef RIM
   if (on_rim(ab)) {
-    ivec3 rim_texel = ivec3(torus_texel((node + slot.coarse.xy) / 2, coarse.torus.xy, window.x), coarse.torus.z);
-    vec4 rim_vertex = texelFetch(positions, rim_texel, 0);
+    vec4 rim_vertex = vertex_on_rim(ab, slot, coarse);
     position = rim_vertex.xyz + coarse.offset.xyz;
     height = rim_vertex.w;
   }

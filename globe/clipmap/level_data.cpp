@@ -9,86 +9,16 @@
 
 #include "globe/clipmap/patch.h"
 #include "globe/clipmap/shading_nodes.h"
-#include "globe/planet/directions.h"
 
 namespace globe::clipmap {
 namespace {
 
 using planet::kDiamonds;
-using planet::kTileCells;
 using planet::Surface;
-using planet::SurfaceTile;
-using planet::TileId;
-
-NodeRect intersect(const NodeRect& a, const NodeRect& b) {
-  return {std::max(a.i0, b.i0), std::min(a.i1, b.i1), std::max(a.j0, b.j0), std::min(a.j1, b.j1)};
-}
 
 std::size_t at(const NodeRect& rect, int i, int j) {
   return static_cast<std::size_t>(j - rect.j0) * static_cast<std::size_t>(rect.width()) +
          static_cast<std::size_t>(i - rect.i0);
-}
-
-}  // namespace
-
-PositionGrid exact_positions(const Surface& surface, int level, int d, const NodeRect& rect,
-                             const dvec3& anchor) {
-  PositionGrid grid{rect, {}};
-  grid.values.resize(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()));
-  const int cells = std::min(kTileCells, planet::nodes_per_side(level));
-  const int last = planet::nodes_per_side(level) / cells - 1;
-  for (int tj = std::min(rect.j0 / cells, last); tj <= std::min(rect.j1 / cells, last); ++tj) {
-    for (int ti = std::min(rect.i0 / cells, last); ti <= std::min(rect.i1 / cells, last); ++ti) {
-      const TileId id{d, level, ti, tj};
-      const auto tile = surface.tile(id);
-      const planet::TileValues<dvec3> directions = planet::node_directions(id, 0);
-      const NodeRect part =
-          intersect(rect, {id.first_i(), id.first_i() + cells, id.first_j(), id.first_j() + cells});
-      for (int j = part.j0; j <= part.j1; ++j) {
-        for (int i = part.i0; i <= part.i1; ++i) {
-          const double h = surface.drawn_height(tile->height.at(i, j));
-          const dvec3& u = directions.at(i, j);
-          grid.values[at(rect, i, j)] =
-              glm::dvec4(geo::ecef_from_normal(surface.ellipsoid(), u, h) - anchor, h);
-        }
-      }
-    }
-  }
-  return grid;
-}
-
-namespace {
-
-/// Grown to even corners on every side, so that both ends of every halved edge are inside.
-NodeRect with_parents(const NodeRect& rect, int n) {
-  const auto down = [](int x) { return x & ~1; };
-  return {std::max(down(rect.i0 - 1), 0), std::min(down(rect.i1 + 2), n), std::max(down(rect.j0 - 1), 0),
-          std::min(down(rect.j1 + 2), n)};
-}
-
-VertexBlock make_vertex_block(const Surface& surface, int level, int d, const NodeRect& rect,
-                              const dvec3& anchor) {
-  const int n = planet::nodes_per_side(level);
-  const PositionGrid grid = exact_positions(surface, level, d, with_parents(rect, n), anchor);
-  VertexBlock block{d, rect, {}, {}};
-  const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
-  block.position.reserve(count);
-  block.coarse.reserve(count);
-  for (int j = rect.j0; j <= rect.j1; ++j) {
-    for (int i = rect.i0; i <= rect.i1; ++i) {
-      const glm::dvec4& own = grid.at(i, j);
-      block.position.emplace_back(own);
-      if (((i | j) & 1) == 0) {
-        block.coarse.emplace_back(own);
-        continue;
-      }
-      const auto ends = planet::halved_edge(i, j);
-      const glm::dvec4& a = grid.at(ends[0].x, ends[0].y);
-      const glm::dvec4& b = grid.at(ends[1].x, ends[1].y);
-      block.coarse.emplace_back((a + b) * 0.5);
-    }
-  }
-  return block;
 }
 
 /// What stays resident of a level's ground when its window becomes `rect`.
@@ -164,8 +94,7 @@ double lowest_vertex(const LevelData& data) {
 
 std::size_t LevelUpdate::upload_bytes() const {
   std::size_t bytes = 0;
-  for (const VertexBlock& block : vertex_blocks)
-    bytes += (block.position.size() + block.coarse.size()) * sizeof(glm::vec4);
+  for (const VertexBlock& block : vertex_blocks) bytes += block.upload_bytes();
   for (const ShadingBlock& block : shading_blocks) {
     bytes += block.lit.size() * sizeof(glm::u8vec4) + block.water.size();
   }
@@ -174,7 +103,7 @@ std::size_t LevelUpdate::upload_bytes() const {
 
 dvec3 level_anchor(const Settings& settings, const Surface& surface, const Region& region) {
   Node node{0, region.level, 0, 0};
-  if (region.level > settings.base_level) {
+  if (region.level > settings.base_level && settings.positions != Positions::kFloat32) {
     const int step = std::min(static_cast<int>(std::bit_floor(static_cast<unsigned>(2 * settings.s))),
                               planet::nodes_per_side(region.level));
     node = nearest_lattice_node(grid_point(region.centre), step);
@@ -227,7 +156,7 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
       }
     }
     for (const NodeRect& part : difference(rect, held)) {
-      VertexBlock block = make_vertex_block(surface, level, d, part, data->anchor);
+      VertexBlock block = make_vertex_block(settings, surface, level, d, part, data->anchor);
       for (int j = part.j0; j <= part.j1; ++j) {
         for (int i = part.i0; i <= part.i1; ++i) {
           data->positions[k][at(rect, i, j)] = block.position[at(part, i, j)];
@@ -255,7 +184,11 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
             [](const Patch& a, const Patch& b) { return a.trixel < b.trixel; });
   data->bounds.reserve(data->patches.size());
   for (const Patch& patch : data->patches) data->bounds.push_back(bound_patch(settings, *data, patch));
-  data->lowest_m = lowest_vertex(*data) - sag(surface, level);
+  // between chords of whole patches, as deep as triangles of that size would lie
+  const int drawn_flat = settings.positions == Positions::kChord
+                             ? level - std::bit_width(static_cast<unsigned>(settings.m)) + 1
+                             : level;
+  data->lowest_m = lowest_vertex(*data) - sag(surface, drawn_flat);
   update.data = std::move(data);
   return update;
 }

@@ -10,21 +10,12 @@
 
 #include "globe/clipmap/lighting.h"
 #include "globe/clipmap/region.h"
+#include "globe/clipmap/vertex_block.h"
 #include "globe/planet/surface.h"
 
 namespace globe::clipmap {
 
-/// A rectangle of one layer's vertices to upload: position (metres from the level's anchor, fp32) and, in w,
-/// height.
-struct VertexBlock {
-  int d = 0;
-  NodeRect nodes;                   ///< nodes of the level
-  std::vector<glm::vec4> position;  ///< row by row, i fastest
-  std::vector<glm::vec4>
-      coarse;  ///< where the vertex goes at α = 1: halfway between the coarser level's two vertices
-};
-
-/// The same for shading, at the level's shading level.
+/// A rectangle of one layer's shading to upload, at the level's shading level.
 struct ShadingBlock {
   int d = 0;
   NodeRect nodes;                   ///< nodes of the shading level
@@ -54,7 +45,7 @@ struct LevelData {
   dvec3 anchor{0.0};                                 ///< ECEF metres, a pure function of the region's centre
   std::array<NodeRect, planet::kDiamonds> vertices;  ///< resident nodes of each diamond
   std::array<NodeRect, planet::kDiamonds> shading;   ///< resident nodes of each diamond at the shading level
-  std::array<std::vector<glm::vec4>, planet::kDiamonds> positions;  ///< of `vertices`, as uploaded
+  std::array<std::vector<glm::vec4>, planet::kDiamonds> positions;  ///< of `vertices`, as drawn
   std::array<std::vector<GroundPart>, planet::kDiamonds>
       ground;                       ///< of `shading`, to be lit when the sun moves
   Lighting lighting;                ///< that the uploaded shading was lit with
@@ -73,24 +64,12 @@ struct LevelUpdate {
 };
 
 /// Shared origin of a level's offsets: the drawn ground at the node nearest to the region's centre on the
-/// lattice of the largest power of two up to 2s cells.
+/// lattice of the largest power of two up to 2s cells. The planet's centre at the base level, and with
+/// Positions::kFloat32.
 dvec3 level_anchor(const Settings& settings, const planet::Surface& surface, const Region& region);
 
-/// Positions of a rectangle of nodes in double, ECEF metres from an anchor, with the drawn height in w.
-struct PositionGrid {
-  NodeRect nodes;
-  std::vector<glm::dvec4> values;  ///< row by row, i fastest
-
-  const glm::dvec4& at(int i, int j) const {
-    return values[static_cast<std::size_t>(j - nodes.j0) * static_cast<std::size_t>(nodes.width()) +
-                  static_cast<std::size_t>(i - nodes.i0)];
-  }
-};
-PositionGrid exact_positions(const planet::Surface& surface, int level, int d, const NodeRect& nodes,
-                             const dvec3& anchor);
-
 /// Computes what a level needs for `region`: only nodes that `before` (null: nothing) does not hold, unless
-/// the anchor or the light changed. Positions in double, rounded once. Safe to call from any thread.
+/// the anchor or the light changed. Safe to call from any thread.
 LevelUpdate update_level(const Settings& settings, const planet::Surface& surface, Region region,
                          const Lighting& lighting, const LevelData* before);
 

@@ -44,6 +44,9 @@ struct NodeRect {
   friend bool operator==(const NodeRect&, const NodeRect&) = default;
 };
 
+/// What two rectangles have in common; empty when nothing.
+NodeRect intersect(const NodeRect& a, const NodeRect& b);
+
 /// Region A_l: the trixels of 2m cells whose three corners lie within s of the level's centre.
 struct Region {
   int level = 0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "globe/clipmap/positions.h"
+
 namespace globe::clipmap {
 
 /// Sizes that follow from the detail asked for (DESIGN section 5).
@@ -8,13 +10,19 @@ struct Settings {
   int m = 8;               ///< cells a side of a patch, the largest power of two <= s / 8
   int base_level = 6;      ///< l0, the largest level with 2^l0 <= s: covers the whole sphere, always resident
   int shading_levels = 2;  ///< slopes and colours are this many levels finer than the triangles they cover
+  Positions positions = Positions::kExact;
 
   /// Settings for a hexagon of at least `detail` cells (16 .. 1024), rounded up to a multiple of 2m.
   /// Throws UsageError outside that range.
   static Settings for_detail(int detail, int shading_levels = 2);
 
-  int unit() const { return 2 * m; }                ///< regions are made of trixels of this many cells
-  int window() const { return 2 * s + 2 * m + 3; }  ///< nodes a side of a level's torus
+  int unit() const { return 2 * m; }  ///< regions are made of trixels of this many cells
+  /// Cells between the knots that positions are interpolated from; 1 where they are not.
+  int knot_step() const {
+    return positions == Positions::kChord ? m : positions == Positions::kQuadratic ? m / 2 : 1;
+  }
+  /// Nodes a side of a level's torus: one step ahead, one guard node, and whole steps between knots.
+  int window() const { return (2 * s + 2 * m + 2 + knot_step()) / knot_step() * knot_step(); }
   /// The base level has a whole sphere's room in its torus: it is shaded one level finer still.
   int shading_levels_at(int level) const { return shading_levels + (level == base_level ? 1 : 0); }
   int shading_window() const { return window() << shading_levels; }

@@ -72,4 +72,8 @@ TileValues<dvec3> node_directions(const TileId& id, int guard) {
   return result;
 }
 
+std::vector<dvec3> node_directions(int d, int level, const ivec2& first, const ivec2& last) {
+  return directions_between(d, level, first, last).u;
+}
+
 }  // namespace globe::planet

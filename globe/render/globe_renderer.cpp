@@ -23,10 +23,13 @@ constexpr double kSunMoved =
     1e-3;  ///< radians (0.06 degrees) after which frames in real time light the ground anew
 constexpr float kLateFade = 0.1f;  ///< a level that arrives late morphs in by this much a frame
 
-gl::Program ground_program(const Look& look, const RenderSettings& settings) {
+gl::Program ground_program(const Look& look, const RenderSettings& settings,
+                           const ClipmapTextures& textures) {
   gl::ProgramSources sources;
   sources.files = {"clipmap.vert", "clipmap.frag"};
-  sources.defines = {"MAX_SLOTS " + std::to_string(kMaxSlots), "HAZE_STEPS " + std::to_string(kHazeSteps)};
+  sources.defines = textures.defines();
+  sources.defines.push_back("MAX_SLOTS " + std::to_string(kMaxSlots));
+  sources.defines.push_back("HAZE_STEPS " + std::to_string(kHazeSteps));
   if (look.kind != Kind::kPlain) sources.defines.push_back("MORPH");
   if (look.kind == Kind::kRim) sources.defines.push_back("RIM");
   if (look.shading != Shading::kCoarse) sources.defines.push_back("SHADE_FINE");
@@ -59,7 +62,8 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
   ground_array_.set_vertices(1, instances_, 0, sizeof(glm::ivec4), 1);
   ground_array_.set_attribute(1, {1, 4, GL_INT, 0, gl::Attribute::Kind::kInteger});
   ground_array_.set_indices(indices_);
-  for (std::size_t k = 0; k < kLooks.size(); ++k) ground_[k] = ground_program(kLooks[k], settings_);
+  for (std::size_t k = 0; k < kLooks.size(); ++k)
+    ground_[k] = ground_program(kLooks[k], settings_, textures_);
   if (!settings_.background) sky_.emplace(has_air(surface_->info()));
 }
 

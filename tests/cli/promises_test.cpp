@@ -93,6 +93,8 @@ TEST(Program, RefusesUnknownWordsWithOneLineAndStatus2) {
   expect_one_line(run_program({"lookup", "--frobnicate", "1 2"}), 2, "frobnicate");
   expect_one_line(run_program({"shot", "procedural", "-o", "x.png"}), 2, "--at");
   expect_one_line(run_program({"fly", "procedural", "-o", "x.mp4", "--size", "huge"}), 2, "--size");
+  expect_one_line(run_program({"fly", "procedural", "-o", "x.mp4", "--positions", "double"}), 2,
+                  "--positions");
 }
 
 TEST(Program, SaysInOneLineThatThereIsNoGraphics) {

@@ -11,6 +11,8 @@
 
 namespace {
 
+using globe::clipmap::Positions;
+using globe::clipmap::Settings;
 using views::Camera;
 using views::MeshProbe;
 using views::Place;
@@ -73,9 +75,8 @@ struct Sum {
 };
 
 /// Frames over the places: levels up to three depths, with and without fade, the nadir off the nodes.
-Sum meshes(int detail, const globe::gl::ShaderReader& reader, std::size_t places) {
+Sum meshes(const Settings& settings, const globe::gl::ShaderReader& reader, std::size_t places) {
   Sum sum;
-  const auto settings = globe::clipmap::Settings::for_detail(detail, 0);
   MeshProbe probe(views::builtin_planet(), settings, reader);
   for (std::size_t p = 0; p < places; ++p) {
     const Place& place = views::hard_places()[p * views::hard_places().size() / places];
@@ -100,7 +101,8 @@ Sum meshes(int detail, const globe::gl::ShaderReader& reader, std::size_t places
 class H15 : public GlTest, public testing::WithParamInterface<int> {};
 
 TEST_P(H15, TheMeshReadBackFromTheGpuIsClosed) {
-  const Sum sum = meshes(GetParam(), globe::gl::read_shader, hard::full() || GetParam() == 16 ? 12 : 4);
+  const Sum sum = meshes(Settings::for_detail(GetParam(), 0), globe::gl::read_shader,
+                         hard::full() || GetParam() == 16 ? 12 : 4);
   hard::report("H15",
                "edges not used exactly twice, read back, detail " + std::to_string(GetParam()) + ", " +
                    std::to_string(sum.frames) + " frames, " + std::to_string(sum.edges) + " edges",
@@ -113,8 +115,38 @@ TEST_P(H15, TheMeshReadBackFromTheGpuIsClosed) {
 
 INSTANTIATE_TEST_SUITE_P(Details, H15, testing::Values(16, 64));
 
+TEST_F(GlTest, H15TheMeshIsClosedHoweverVerticesArePlaced) {
+  for (const Positions positions : {Positions::kQuadratic, Positions::kChord, Positions::kFloat32}) {
+    Settings settings = Settings::for_detail(16, 0);
+    settings.positions = positions;
+    const Sum sum = meshes(settings, globe::gl::read_shader, hard::full() ? 12 : 4);
+    hard::report("H15",
+                 "edges not used exactly twice, --positions " +
+                     std::string(globe::clipmap::name_of(positions)) + ", " + std::to_string(sum.frames) +
+                     " frames, " + std::to_string(sum.edges) + " edges",
+                 "0", std::to_string(sum.open_edges));
+    EXPECT_EQ(sum.open_edges, 0u);
+    EXPECT_EQ(sum.not_a_sphere, 0u);
+  }
+}
+
+TEST_F(GlTest, H15NegativeControlKnotsOfTheFinePatchOpenTheRim) {
+  Settings settings = Settings::for_detail(16, 0);
+  settings.positions = Positions::kChord;
+  const Sum sum =
+      meshes(settings,
+             views::with_exchange("lib/interpolated_vertices.glsl", "int turn = odd.x + odd.y == 1",
+                                  "int turn = odd.x + odd.y != 1"),
+             2);
+  hard::report("H15",
+               "negative control: rims by another coarse patch, " + std::to_string(sum.edges) + " edges",
+               "> 0", std::to_string(sum.open_edges));
+  EXPECT_GT(sum.open_edges, 0u);
+}
+
 TEST_F(GlTest, H15NegativeControlRimsNotTakenFromTheCoarserLevelAreOpen) {
-  const Sum sum = meshes(16, views::with_exchange("clipmap.vert", "if (on_rim(ab))", "if (false)"), 2);
+  const Sum sum = meshes(Settings::for_detail(16, 0),
+                         views::with_exchange("clipmap.vert", "if (on_rim(ab))", "if (false)"), 2);
   hard::report("H15", "negative control: stitching off, " + std::to_string(sum.edges) + " edges", "> 0",
                std::to_string(sum.open_edges));
   EXPECT_GT(sum.open_edges, 0u);
@@ -122,7 +154,7 @@ TEST_F(GlTest, H15NegativeControlRimsNotTakenFromTheCoarserLevelAreOpen) {
 
 /// Vertices of one view that lie elsewhere when every patch goes through the program for rims.
 std::size_t moved_by_the_other_program(const globe::gl::ShaderReader& reader) {
-  const auto settings = globe::clipmap::Settings::for_detail(16, 0);
+  const auto settings = Settings::for_detail(16, 0);
   std::size_t moved = 0;
   for (const Place& place : views::hard_places()) {
     MeshProbe probe(views::builtin_planet(), settings, reader);

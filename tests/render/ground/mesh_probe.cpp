@@ -19,10 +19,13 @@ struct ViewBlock {
                                 glm::vec4(1.0f, 1.0f, 0.0f, 1.0f)};
 };
 
-globe::gl::Program probe_program(Kind kind, const globe::gl::ShaderReader& reader) {
+globe::gl::Program probe_program(Kind kind, const globe::render::ClipmapTextures& textures,
+                                 const globe::gl::ShaderReader& reader) {
   globe::gl::ProgramSources sources;
   sources.files = {"clipmap.vert"};
-  sources.defines = {"MAX_SLOTS " + std::to_string(globe::render::kMaxSlots), "HAZE_STEPS 1"};
+  sources.defines = textures.defines();
+  sources.defines.push_back("MAX_SLOTS " + std::to_string(globe::render::kMaxSlots));
+  sources.defines.emplace_back("HAZE_STEPS 1");
   if (kind != Kind::kPlain) sources.defines.emplace_back("MORPH");
   if (kind == Kind::kRim) sources.defines.emplace_back("RIM");
   sources.captured = {"gl_Position"};
@@ -44,9 +47,10 @@ MeshProbe::MeshProbe(std::shared_ptr<const Surface> surface, const globe::clipma
       settings_(settings),
       mesh_(globe::clipmap::make_patch_mesh(settings.m)),
       vertices_(Buffer::of(mesh_.vertices)),
-      programs_{probe_program(Kind::kPlain, reader), probe_program(Kind::kMorphing, reader),
-                probe_program(Kind::kRim, reader)},
-      textures_(settings) {}
+      textures_(settings),
+      programs_{probe_program(Kind::kPlain, textures_, reader),
+                probe_program(Kind::kMorphing, textures_, reader),
+                probe_program(Kind::kRim, textures_, reader)} {}
 
 void MeshProbe::load(const dvec3& position, int finest, const globe::clipmap::Lighting& lighting) {
   const Geodetic place = globe::geo::geodetic_from_ecef(surface_->ellipsoid(), position);

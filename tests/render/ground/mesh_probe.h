@@ -53,8 +53,8 @@ class MeshProbe {
   globe::clipmap::PatchMesh mesh_;
   globe::gl::Buffer vertices_;
   globe::gl::Framebuffer nowhere_{1, 1};  ///< drawing wants one, though nothing is rasterised
-  std::array<globe::gl::Program, 3> programs_;
   globe::render::ClipmapTextures textures_;
+  std::array<globe::gl::Program, 3> programs_;
   std::shared_ptr<const globe::clipmap::ClipmapState> state_;
 };
 

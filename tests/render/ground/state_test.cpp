@@ -82,26 +82,30 @@ TEST_F(GlTest, H24TheSameCameraGivesTheSameBytes) {
 TEST_F(GlTest, H12PicturesAreTheSameWithoutCulling) {
   const auto surface = views::builtin_planet();
   const Framebuffer picture(320, 180);
-  RenderSettings settings = full_settings();
-  settings.clipmap = Settings::for_detail(32, 1);
-  GlobeRenderer culled(surface, settings);
-  settings.cull_patches = false;
-  GlobeRenderer whole(surface, settings);
-  std::size_t different_bytes = 0, drawn = 0, all = 0;
-  const auto cameras = tour(culled, hard::full() ? 60 : 7);
-  for (const Camera& camera : cameras) {
-    const dvec3 sun = glm::normalize(camera.position);
-    drawn += culled.draw(camera, sun, true, picture).patches;
-    const Bytes first = picture.read_rgba8();
-    all += whole.draw(camera, sun, true, picture).patches;
-    different_bytes += different(first, picture.read_rgba8());
+  for (const auto positions : {globe::clipmap::Positions::kExact, globe::clipmap::Positions::kChord}) {
+    RenderSettings settings = full_settings();
+    settings.clipmap = Settings::for_detail(32, 1);
+    settings.clipmap.positions = positions;
+    GlobeRenderer culled(surface, settings);
+    settings.cull_patches = false;
+    GlobeRenderer whole(surface, settings);
+    std::size_t different_bytes = 0, drawn = 0, all = 0;
+    const auto cameras = tour(culled, hard::full() ? 60 : 7);
+    for (const Camera& camera : cameras) {
+      const dvec3 sun = glm::normalize(camera.position);
+      drawn += culled.draw(camera, sun, true, picture).patches;
+      const Bytes first = picture.read_rgba8();
+      all += whole.draw(camera, sun, true, picture).patches;
+      different_bytes += different(first, picture.read_rgba8());
+    }
+    hard::report("H12",
+                 "bytes of pictures that culling changes, --positions " +
+                     std::string(globe::clipmap::name_of(positions)) + ", " + std::to_string(cameras.size()) +
+                     " pictures, " + std::to_string(drawn) + " of " + std::to_string(all) + " patches drawn",
+                 "0", std::to_string(different_bytes));
+    EXPECT_EQ(different_bytes, 0u);
+    EXPECT_LT(drawn, all / 2);
   }
-  hard::report("H12",
-               "bytes of pictures that culling changes, " + std::to_string(cameras.size()) + " pictures, " +
-                   std::to_string(drawn) + " of " + std::to_string(all) + " patches drawn",
-               "0", std::to_string(different_bytes));
-  EXPECT_EQ(different_bytes, 0u);
-  EXPECT_LT(drawn, all / 2);
 }
 
 /// Texels of a state's resident nodes, of all layers, in the order of the nodes.
@@ -120,8 +124,12 @@ std::vector<T> resident(const globe::gl::Texture& texture, const globe::clipmap:
   return texels;
 }
 
-std::size_t differing_texels(const globe::clipmap::ClipmapState& state, const ClipmapTextures& a,
-                             const ClipmapTextures& b, std::size_t& looked_at) {
+globe::clipmap::NodeRect knots_of(const globe::clipmap::NodeRect& nodes, int step) {
+  return {nodes.i0 / step, nodes.i1 / step, nodes.j0 / step, nodes.j1 / step};
+}
+
+std::size_t differing_texels(const Settings& settings, const globe::clipmap::ClipmapState& state,
+                             const ClipmapTextures& a, const ClipmapTextures& b, std::size_t& looked_at) {
   std::size_t count = 0;
   const auto compare = [&](const auto& x, const auto& y) {
     looked_at += x.size();
@@ -132,10 +140,20 @@ std::size_t differing_texels(const globe::clipmap::ClipmapState& state, const Cl
       const auto k = static_cast<std::size_t>(d);
       if (level->vertices[k].empty()) continue;
       const int la = a.layer(level->region.level, d), lb = b.layer(level->region.level, d);
-      compare(resident<glm::vec4>(a.positions(), level->vertices[k], la),
-              resident<glm::vec4>(b.positions(), level->vertices[k], lb));
-      compare(resident<glm::vec4>(a.coarse(), level->vertices[k], la),
-              resident<glm::vec4>(b.coarse(), level->vertices[k], lb));
+      if (globe::clipmap::is_interpolated(settings.positions)) {
+        compare(resident<float>(a.positions(), level->vertices[k], la),
+                resident<float>(b.positions(), level->vertices[k], lb));
+        for (const int kind : {0, 1}) {
+          const auto knots = knots_of(level->vertices[k], settings.knot_step());
+          compare(resident<glm::vec4>(a.coarse(), knots, 2 * la + kind),
+                  resident<glm::vec4>(b.coarse(), knots, 2 * lb + kind));
+        }
+      } else {
+        compare(resident<glm::vec4>(a.positions(), level->vertices[k], la),
+                resident<glm::vec4>(b.positions(), level->vertices[k], lb));
+        compare(resident<glm::vec4>(a.coarse(), level->vertices[k], la),
+                resident<glm::vec4>(b.coarse(), level->vertices[k], lb));
+      }
       compare(resident<glm::u8vec4>(a.lit(), level->shading[k], la),
               resident<glm::u8vec4>(b.lit(), level->shading[k], lb));
       compare(resident<std::uint8_t>(a.water(), level->shading[k], la),
@@ -145,17 +163,22 @@ std::size_t differing_texels(const globe::clipmap::ClipmapState& state, const Cl
   return count;
 }
 
-TEST_F(GlTest, H18WindowsAfterAnyWalkHoldWhatARefillWould) {
+struct Walked {
+  std::size_t different_texels = 0, texels = 0, moves = 0;
+};
+
+/// Walks from every stride-th of the hard places.
+Walked walk(const Settings& settings, std::size_t stride) {
   const auto surface = views::builtin_planet();
-  const Settings settings = Settings::for_detail(16, 1);
   std::mt19937_64 random(18);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  std::size_t different_texels = 0, texels = 0, moves = 0;
-  for (const Place& place : views::hard_places()) {
+  Walked sum;
+  for (std::size_t p = 0; p < views::hard_places().size(); p += stride) {
+    const Place& place = views::hard_places()[p];
     ClipmapTextures walked(settings);
     std::shared_ptr<const globe::clipmap::ClipmapState> state;
     dvec3 u = globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg);
-    for (std::size_t k = 0; k < (hard::full() ? 40u : 8u); ++k, ++moves) {
+    for (std::size_t k = 0; k < (hard::full() ? 40u : 8u); ++k, ++sum.moves) {
       // steps of a cell of some level, in places far beyond every window
       const double reach = std::exp2(-22.0 * unit(random));
       u = glm::normalize(u + hard::random_direction(random) * (k % 5 == 4 ? 0.7 : reach));
@@ -176,14 +199,25 @@ TEST_F(GlTest, H18WindowsAfterAnyWalkHoldWhatARefillWould) {
         EXPECT_EQ(state->levels[l]->vertices, refill.state->levels[l]->vertices);
         EXPECT_EQ(state->levels[l]->shading, refill.state->levels[l]->shading);
       }
-      if (k % 4 == 3 || k + 1 == 8) different_texels += differing_texels(*state, walked, fresh, texels);
+      if (k % 4 == 3 || k + 1 == 8)
+        sum.different_texels += differing_texels(settings, *state, walked, fresh, sum.texels);
     }
   }
-  hard::report("H18",
-               "texels that differ from a refill after walks of " + std::to_string(moves) + " moves, " +
-                   std::to_string(texels),
-               "0", std::to_string(different_texels));
-  EXPECT_EQ(different_texels, 0u);
+  return sum;
+}
+
+TEST_F(GlTest, H18WindowsAfterAnyWalkHoldWhatARefillWould) {
+  for (const auto positions : {globe::clipmap::Positions::kExact, globe::clipmap::Positions::kQuadratic}) {
+    Settings settings = Settings::for_detail(16, 1);
+    settings.positions = positions;
+    const Walked sum = walk(settings, positions == globe::clipmap::Positions::kExact ? 1 : 3);
+    hard::report("H18",
+                 "texels that differ from a refill after walks of " + std::to_string(sum.moves) +
+                     " moves, --positions " + std::string(globe::clipmap::name_of(positions)) + ", " +
+                     std::to_string(sum.texels),
+                 "0", std::to_string(sum.different_texels));
+    EXPECT_EQ(sum.different_texels, 0u);
+  }
 }
 
 TEST_F(GlTest, AFrameThatDoesNotWaitSettlesToThePictureOfOneThatDoes) {
@@ -222,14 +256,19 @@ TEST_F(GlTest, AFrameThatDoesNotWaitSettlesToThePictureOfOneThatDoes) {
   EXPECT_EQ(different_bytes, 0u);
 }
 
+std::size_t layer_formula(const Settings& settings) {
+  const auto w = static_cast<std::size_t>(settings.window());
+  const std::size_t shading = w << settings.shading_levels;
+  const std::size_t knots = w / static_cast<std::size_t>(settings.knot_step());
+  const bool interpolated = globe::clipmap::is_interpolated(settings.positions);
+  return (interpolated ? 4 * w * w + 2 * 16 * knots * knots : 2 * 16 * w * w) + 5 * shading * shading;
+}
+
 TEST_F(GlTest, ClipmapMemoryIsWhatItsFormulaSays) {
   const auto surface = views::builtin_planet();
   const Framebuffer picture(64, 36);
-  RenderSettings settings = full_settings();
-  GlobeRenderer renderer(surface, settings);
-  const auto w = static_cast<std::size_t>(settings.clipmap.window());
-  const std::size_t shading = w << settings.clipmap.shading_levels;
-  const std::size_t layer = 2 * 16 * w * w + 5 * shading * shading;
+  GlobeRenderer renderer(surface, full_settings());
+  const std::size_t layer = layer_formula(full_settings().clipmap);
   std::size_t most = 0;
   for (const Camera& camera : tour(renderer, 10)) {
     renderer.draw(camera, dvec3(1, 0, 0), true, picture);
@@ -240,6 +279,17 @@ TEST_F(GlTest, ClipmapMemoryIsWhatItsFormulaSays) {
   hard::report("memory",
                "bytes of the clipmap's textures in a flight, detail 16, against layers * (32 w^2 + 5 (4w)^2)",
                "equal", std::to_string(most) + " B in " + std::to_string(renderer.gpu_layers()) + " layers");
+  for (const auto positions : {globe::clipmap::Positions::kExact, globe::clipmap::Positions::kQuadratic,
+                               globe::clipmap::Positions::kChord, globe::clipmap::Positions::kFloat32}) {
+    Settings settings = Settings::for_detail(64);
+    settings.positions = positions;
+    const ClipmapTextures textures(settings);
+    EXPECT_EQ(textures.layer_bytes(), layer_formula(settings));
+    hard::report(
+        "memory",
+        "bytes of a layer at detail 64, --positions " + std::string(globe::clipmap::name_of(positions)),
+        "its formula", std::to_string(textures.layer_bytes()));
+  }
 }
 
 }  // namespace

@@ -60,5 +60,16 @@ TEST(RenderSettings, DetailIsRoundedUpToWholePatches) {
   EXPECT_THROW(render_settings(options), globe::UsageError);
 }
 
+TEST(RenderSettings, PositionsAreOneOfFourWords) {
+  ViewOptions options;
+  EXPECT_EQ(render_settings(options).clipmap.positions, globe::clipmap::Positions::kExact);
+  options.positions = "chord";
+  EXPECT_EQ(render_settings(options).clipmap.positions, globe::clipmap::Positions::kChord);
+  for (const char* text : {"", "Exact", "double", "quadratic,chord"}) {
+    options.positions = text;
+    EXPECT_THROW(render_settings(options), globe::UsageError) << text;
+  }
+}
+
 }  // namespace
 }  // namespace app
