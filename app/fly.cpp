@@ -13,6 +13,7 @@
 
 #include "app/commands.h"
 #include "app/contact_sheet.h"
+#include "app/flight.h"
 #include "app/flight_stats.h"
 #include "app/frame_clock.h"
 #include "app/frame_sink.h"
@@ -27,7 +28,6 @@
 #include "globe/planet/scenic.h"
 #include "globe/render/camera.h"
 #include "globe/render/globe_renderer.h"
-#include "globe/scene/flight_path.h"
 
 namespace app {
 namespace {
@@ -38,7 +38,6 @@ namespace render = globe::render;
 constexpr double kOrbit = 20'000'000.0;  ///< metres above the target
 constexpr double kFinalHeight = 200.0;   ///< metres above ground where a flight ends unless --to says more
 constexpr double kLongestTurn = 0.1;     ///< seconds that a film with few frames a second waits for each
-constexpr double kClearance = 2.0;       ///< metres: never closer to the ground
 
 struct FlyOptions {
   ViewOptions view;
@@ -51,63 +50,17 @@ struct FlyOptions {
   bool wait = false;
 };
 
-struct End {
-  geo::Geodetic place;
-  double above_ground = 0;
-};
-
 /// An end of the flight: ALT counts from the ellipsoid, or from the ground with --agl; without ALT `fallback`
 /// above ground.
-End parse_end(const std::string& text, bool agl, double fallback, const render::GlobeRenderer& renderer,
-              const geo::Ellipsoid& ellipsoid) {
+FlightEnd parse_end(const std::string& text, bool agl, double fallback, const render::GlobeRenderer& renderer,
+                    const geo::Ellipsoid& ellipsoid) {
   const Point point = parse_point(text);
   geo::Geodetic place = point.position;
   if (!point.has_alt) return {place, fallback};
-  if (agl) return {place, std::max(place.h_m, kClearance)};
-  return {place,
-          std::max(renderer.height_above_ground(geo::ecef_from_geodetic(ellipsoid, place)), kClearance)};
+  const double above =
+      agl ? place.h_m : renderer.height_above_ground(geo::ecef_from_geodetic(ellipsoid, place));
+  return {place, std::max(above, least_clearance(ellipsoid))};
 }
-
-/// Camera on the path: heights of its ends count from the ground under them, in between from the ground's
-/// height interpolated along, but never below kClearance above the ground under the camera.
-class Flight {
- public:
-  Flight(const render::GlobeRenderer& renderer, const geo::Ellipsoid& ellipsoid, const End& from,
-         const End& to, const Look& look)
-      : renderer_(renderer),
-        ellipsoid_(ellipsoid),
-        path_(normal(from), from.above_ground, normal(to), to.above_ground, ellipsoid.mean_radius(),
-              look.heading_deg, look.pitch_deg),
-        from_ground_(ground_height(from.place)),
-        to_ground_(ground_height(to.place)) {}
-
-  /// @param wait  false: the ground at hand, so that a camera takes no time
-  render::Camera camera(double t, const ViewOptions& view, double aspect, bool wait,
-                        geo::Geodetic& place) const {
-    const globe::scene::PathPoint point = path_.at(t);
-    place = geo::degrees_from_normal(point.u);
-    const double e = globe::scene::FlightPath::eased(t);
-    place.h_m = point.height_m + from_ground_ + (to_ground_ - from_ground_) * e;
-    const double above = renderer_.height_above_ground(geo::ecef_from_geodetic(ellipsoid_, place), wait);
-    if (above < kClearance) place.h_m += kClearance - above;
-    return render::make_camera(ellipsoid_, place, point.heading_deg, point.pitch_deg, view.fov_deg, aspect);
-  }
-
- private:
-  static glm::dvec3 normal(const End& end) {
-    return geo::normal_from_degrees(end.place.lat_deg, end.place.lon_deg);
-  }
-
-  double ground_height(geo::Geodetic place) const {
-    place.h_m = kFinalHeight;
-    return place.h_m - renderer_.height_above_ground(geo::ecef_from_geodetic(ellipsoid_, place));
-  }
-
-  const render::GlobeRenderer& renderer_;
-  geo::Ellipsoid ellipsoid_;
-  globe::scene::FlightPath path_;
-  double from_ground_, to_ground_;
-};
 
 std::string altitude_text(double metres) {
   char text[32];
@@ -147,7 +100,7 @@ void run(const FlyOptions& options) {
   const globe::gl::Framebuffer target(size.width, size.height, format);
 
   Look look = view.look.empty() ? Look{0.0, 0.0} : parse_look(view.look);
-  End to;
+  FlightEnd to;
   if (options.to.empty()) {
     const globe::planet::ScenicView scenic = globe::planet::scenic_place(*surface);
     to = {scenic.place, kFinalHeight};
@@ -155,11 +108,17 @@ void run(const FlyOptions& options) {
   } else {
     to = parse_end(options.to, view.agl, kFinalHeight, renderer, ellipsoid);
   }
-  const End from = options.from == "orbit"
-                       ? End{to.place, kOrbit * ellipsoid.mean_radius() / geo::kWgs84.mean_radius()}
-                       : parse_end(options.from, view.agl, kFinalHeight, renderer, ellipsoid);
+  const FlightEnd from =
+      options.from == "orbit"
+          ? FlightEnd{to.place, kOrbit * ellipsoid.mean_radius() / geo::kWgs84.mean_radius()}
+          : parse_end(options.from, view.agl, kFinalHeight, renderer, ellipsoid);
   const glm::dvec3 sun = sun_for(view, *surface, to.place.lon_deg);
-  const Flight flight(renderer, ellipsoid, from, to, look);
+  const Flight flight(settings.clipmap, surface, settings.max_level, from, to, look.heading_deg,
+                      look.pitch_deg);
+  const double aspect = static_cast<double>(size.width) / size.height;
+  const auto camera_at = [&](const Flight::View& at) {
+    return render::make_camera(ellipsoid, at.place, at.heading_deg, at.pitch_deg, view.fov_deg, aspect);
+  };
 
   FrameSink sink({view.output, size.width, size.height, options.fps, view.overwrite});
   std::optional<ContactSheet> sheet;
@@ -169,19 +128,16 @@ void run(const FlyOptions& options) {
   Progress progress(progress_style(view.quiet || view.output == "-", false));
 
   renderer.warm_up(target);
-  geo::Geodetic start;
-  renderer.draw(flight.camera(0.0, view, static_cast<double>(size.width) / size.height, true, start), sun,
-                true, target);
+  renderer.draw(camera_at(flight.at(0.0, true)), sun, true, target);
   globe::gl::TimerQuery timer = globe::gl::TimerQuery::create();
-  const double aspect = static_cast<double>(size.width) / size.height;
   FrameClock clock(
       std::chrono::duration<double>(options.wait ? 0.0 : std::min(1.0 / options.fps, kLongestTurn)));
   for (int k = 0; k < options.frames; ++k) {
     clock.await_turn();
     const double t = options.frames == 1 ? 1.0 : static_cast<double>(k) / (options.frames - 1);
-    geo::Geodetic place;
     const auto begin = std::chrono::steady_clock::now();
-    const render::Camera camera = flight.camera(t, view, aspect, options.wait, place);
+    const Flight::View at = flight.at(t, options.wait);
+    const render::Camera camera = camera_at(at);
     timer.begin();
     const render::FrameStats frame = renderer.draw(camera, sun, options.wait, target);
     target.resolve();
@@ -189,7 +145,7 @@ void run(const FlyOptions& options) {
     glFinish();
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     const double above = renderer.height_above_ground(camera.position, options.wait);
-    stats.add({k, place, above, took.count(), timer.wait_milliseconds(), frame});
+    stats.add({k, at.place, above, took.count(), timer.wait_milliseconds(), frame});
     const std::vector<std::uint8_t> rgba = target.read_rgba8();
     sink.write(rgba);
     if (sheet && sheet->wants(k)) sheet->add(k, rgba, altitude_text(above));

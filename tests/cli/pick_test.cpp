@@ -138,9 +138,7 @@ TEST(Pick, RefusesWhatItCannotMeanWithOneLine) {
       "pick", {cli::Refusal{{}, 2}, cli::Refusal{{"procedural", "--pixel", "1,1"}, 2},
                cli::Refusal{with(at, {"--pixel", "1280,0"}), 2},
                cli::Refusal{with(at, {"--pixel", "0.5,0.5"}), 2}, cli::Refusal{with(at, {"--pixel"}), 2},
-
                cli::Refusal{with(at, {"--pixel", "0,0", "--look", "0,91"}), 2},
-
                cli::Refusal{with(at, {"--pixel", "0,0", "--detail", "15"}), 2},
                cli::Refusal{with(at, {"--pixel", "0,0", "--time", "noon"}), 2},
                cli::Refusal{{"procedural", "--at", "91,0", "--pixel", "0,0"}, 2},
