@@ -9,6 +9,7 @@ namespace app {
 std::string version() { return "globe " GLOBE_VERSION; }
 
 void add_commands(CLI::App& program, int& exit_status) {
+  add_accuracy(program);
   add_bench(program);
   add_convert(program, exit_status);
   add_cover(program);

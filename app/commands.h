@@ -24,6 +24,7 @@ std::vector<std::string> arguments(int argc, const char* const* argv);
 
 std::string version();
 
+void add_accuracy(CLI::App& program);
 void add_bench(CLI::App& program);
 void add_cover(CLI::App& program);
 void add_export(CLI::App& program);

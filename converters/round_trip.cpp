@@ -103,7 +103,11 @@ void compare(const HeightMap& map, const std::vector<float>& back, RoundTripLoss
     const double weight = std::cos((90.0 - (y + 0.5) * map.step_deg()) * std::numbers::pi / 180.0);
     for (int x = 0; x < map.width; ++x, ++k) {
       const double off = static_cast<double>(back[k]) - static_cast<double>(map.metres[k]);
-      loss.max_m = std::max(loss.max_m, std::abs(off));
+      if (std::abs(off) > loss.max_m) {
+        loss.max_m = std::abs(off);
+        loss.worst_x = x;
+        loss.worst_y = y;
+      }
       squares += weight * off * off;
       area += weight;
     }

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "app/accuracy/vincenty.h"
 #include "globe/geo/ellipsoid.h"
 #include "globe/geo/geodesic.h"
 #include "tests/cli/run_program.h"
@@ -61,44 +62,6 @@ std::vector<std::array<double, 3>> ask(const std::vector<Pair>& pairs,
   return answers;
 }
 
-/// Vincenty 1975, the inverse problem on WGS84; nothing when 100 rounds do not settle it.
-std::optional<double> vincenty(const Geodetic& p, const Geodetic& q) {
-  const double a = globe::geo::kWgs84.a, f = globe::geo::kWgs84.f, b = a * (1.0 - f);
-  const double u1 = std::atan((1.0 - f) * std::tan(p.lat_deg * kDegree));
-  const double u2 = std::atan((1.0 - f) * std::tan(q.lat_deg * kDegree));
-  const double lon = (q.lon_deg - p.lon_deg) * kDegree;
-  double lambda = lon;
-  for (int round = 0; round < 100; ++round) {
-    const double x = std::cos(u2) * std::sin(lambda);
-    const double y = std::cos(u1) * std::sin(u2) - std::sin(u1) * std::cos(u2) * std::cos(lambda);
-    const double sin_sigma = std::hypot(x, y);
-    if (sin_sigma == 0.0) return 0.0;
-    const double cos_sigma = std::sin(u1) * std::sin(u2) + std::cos(u1) * std::cos(u2) * std::cos(lambda);
-    const double sigma = std::atan2(sin_sigma, cos_sigma);
-    const double sin_alpha = std::cos(u1) * std::cos(u2) * std::sin(lambda) / sin_sigma;
-    const double cos2_alpha = 1.0 - sin_alpha * sin_alpha;
-    const double cos_2m =
-        cos2_alpha == 0.0 ? 0.0 : cos_sigma - 2.0 * std::sin(u1) * std::sin(u2) / cos2_alpha;
-    const double c = f / 16.0 * cos2_alpha * (4.0 + f * (4.0 - 3.0 * cos2_alpha));
-    const double bend = cos_2m + c * cos_sigma * (2.0 * cos_2m * cos_2m - 1.0);
-    const double next = lon + (1.0 - c) * f * sin_alpha * (sigma + c * sin_sigma * bend);
-    if (std::abs(next - lambda) < 1e-12) {
-      const double k2 = cos2_alpha * (a * a - b * b) / (b * b);
-      const double big_a = 1.0 + k2 / 16384.0 * (4096.0 + k2 * (-768.0 + k2 * (320.0 - 175.0 * k2)));
-      const double big_b = k2 / 1024.0 * (256.0 + k2 * (-128.0 + k2 * (74.0 - 47.0 * k2)));
-      const double m2 = 2.0 * cos_2m * cos_2m - 1.0;
-      const double delta =
-          big_b * sin_sigma *
-          (cos_2m + big_b / 4.0 *
-                        (cos_sigma * m2 - big_b / 6.0 * cos_2m * (4.0 * sin_sigma * sin_sigma - 3.0) *
-                                              (4.0 * cos_2m * cos_2m - 3.0)));
-      return b * big_a * (sigma - delta);
-    }
-    lambda = next;
-  }
-  return std::nullopt;
-}
-
 TEST(HardGeodesic, KarneysTestSetIsAnsweredWithin15Nanometres) {
   // The kinds of lines in file order are told in geodtest500.txt beside the file.
   constexpr std::size_t kLines = 500, kFirstNearAntipodal = 100, kNearAntipodal = 120;
@@ -128,7 +91,7 @@ TEST(HardGeodesic, KarneysTestSetIsAnsweredWithin15Nanometres) {
       worst_aside = std::max(worst_aside, std::abs(turn) * kDegree * m12[k]);
     }
     const bool near_antipodal = k >= kFirstNearAntipodal && k < kFirstNearAntipodal + kNearAntipodal;
-    if (near_antipodal && !vincenty(pairs[k].a, pairs[k].b)) ++unsettled;
+    if (near_antipodal && !app::accuracy::vincenty(globe::geo::kWgs84, pairs[k].a, pairs[k].b)) ++unsettled;
   }
   EXPECT_LE(worst, kGeodesicError);
   EXPECT_LE(worst_aside, kGeodesicError);
@@ -142,7 +105,7 @@ TEST(HardGeodesic, KarneysTestSetIsAnsweredWithin15Nanometres) {
 
 TEST(HardGeodesic, VincentyAgreesWhereItSettles) {
   const globe::geo::GeodesicSolver solver(globe::geo::kWgs84);
-  const auto settled = vincenty({50, 8}, {-33, 151});
+  const auto settled = app::accuracy::vincenty(globe::geo::kWgs84, {50, 8}, {-33, 151});
   ASSERT_TRUE(settled.has_value());
   EXPECT_NEAR(*settled, solver.inverse({50, 8}, {-33, 151}).s12_m, 1e-3);  // its own error is 0.5 mm
 }

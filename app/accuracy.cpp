@@ -1,0 +1,111 @@
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include "app/accuracy/report.h"
+#include "app/commands.h"
+#include "app/progress.h"
+#include "globe/base/error.h"
+#include "globe/base/pending_file.h"
+
+namespace app {
+namespace {
+
+struct AccuracyOptions {
+  std::string folder;
+  std::string suite = "quick";
+  std::string only;
+  bool hard = false;
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+std::string names_of_families() {
+  std::string names;
+  for (const accuracy::Family& family : accuracy::families())
+    names += (names.empty() ? "" : ", ") + family.name;
+  return names;
+}
+
+/// The table that the last run of the tests left.
+void show_hard_cases() {
+  const std::filesystem::path table = GLOBE_HARD_CASES;
+  std::ifstream rows(table);
+  if (!rows || rows.peek() == std::ifstream::traits_type::eof())
+    throw globe::Error(table.string(), "the hard cases have not been run here", "run ./dev test");
+  std::printf("case | quantity | threshold | seen\n");
+  constexpr std::string_view kMark = "HARD | ";
+  for (std::string line; std::getline(rows, line);)
+    std::printf("%s\n", line.substr(line.starts_with(kMark) ? kMark.size() : 0).c_str());
+}
+
+void write(const std::filesystem::path& path, const std::string& text, bool overwrite) {
+  globe::PendingFile file(path, overwrite);
+  std::ofstream(file.temporary(), std::ios::binary) << text;
+  file.publish();
+}
+
+void run(const AccuracyOptions& options) {
+  if (options.hard) {
+    show_hard_cases();
+    return;
+  }
+  if (options.folder.empty())
+    throw globe::UsageError("accuracy", "no folder to write to", "give -o DIR, or --hard alone");
+  std::vector<accuracy::Family> chosen;
+  for (const accuracy::Family& family : accuracy::families())
+    if (options.only.empty() || family.name == options.only) chosen.push_back(family);
+  if (chosen.empty())
+    throw globe::UsageError("--only " + options.only, "no such family", "give one of " + names_of_families());
+  const std::filesystem::path folder = options.folder;
+  const std::filesystem::path page = folder / "accuracy.html", rows = folder / "accuracy.csv",
+                              json = folder / "accuracy.json";
+  for (const auto& path : {page, rows, json}) globe::refuse_existing(path, options.overwrite);
+  std::filesystem::create_directories(folder);
+  Progress progress(progress_style(options.quiet, false));
+  const accuracy::Scope scope{options.suite == "full"};
+  std::vector<accuracy::MeasuredStudy> measured;
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    progress.show("measuring " + chosen[k].name, static_cast<double>(k) / static_cast<double>(chosen.size()));
+    for (accuracy::Study& study : chosen[k].studies(scope))
+      measured.push_back(accuracy::measure(std::move(study), scope));
+  }
+  progress.show("drawing", 1.0);
+  const std::string command = "globe accuracy -o " + options.folder + " --suite " + options.suite +
+                              (options.only.empty() ? "" : " --only " + options.only);
+  const accuracy::Provenance provenance = accuracy::provenance(command, options.suite);
+  write(page, accuracy::html_of(provenance, measured), options.overwrite);
+  write(rows, accuracy::csv_of(measured), options.overwrite);
+  write(json, accuracy::json_of(provenance, measured), options.overwrite);
+  const std::string text = accuracy::text_of(measured);
+  std::fputs(text.c_str(), stdout);
+}
+
+}  // namespace
+
+void add_accuracy(CLI::App& program) {
+  auto options = std::make_shared<AccuracyOptions>();
+  CLI::App* command = program.add_subcommand(
+      "accuracy", "What each step of accuracy costs here: errors beside times, as a report");
+  command->add_option("-o,--output", options->folder, "folder for accuracy.html, .csv and .json");
+  command->add_option("--suite", options->suite, "quick (about a minute) or full")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"quick", "full"}));
+  command->add_option("--only", options->only, "one family: " + names_of_families());
+  command->add_flag("--hard", options->hard,
+                    "show the hard cases that the tests last saw, in place of a report");
+  command->add_flag("--overwrite", options->overwrite, "replace an existing report");
+  command->add_flag("--quiet", options->quiet, "warnings and errors only");
+  command->footer(
+      "Text: a block for each knob, a line for each setting: largest error, RMS, median cost (quartiles); * "
+      "marks\n"
+      "settings that no other betters in both error and cost.  Errors are the same on every run; costs are "
+      "medians of\n"
+      "interleaved runs.\n"
+      "Example: globe accuracy -o report --only geodesics");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace app

@@ -1,0 +1,87 @@
+#include <memory>
+#include <utility>
+
+#include "app/accuracy/study.h"
+#include "converters/round_trip.h"
+
+namespace app::accuracy {
+namespace {
+
+using converters::Filter;
+using converters::RoundTripMethod;
+using converters::Sampling;
+
+struct Method {
+  const char* name;
+  RoundTripMethod method;
+};
+
+const std::vector<Method> kMethods{
+    {"nearest", {Filter::kNearest, Sampling::kNearest, false}},
+    {"bilinear", {Filter::kBilinear, Sampling::kLinear, false}},
+    {"bicubic", {Filter::kBicubic, Sampling::kLinear, false}},
+    {"area", {Filter::kArea, Sampling::kLinear, false}},
+    {"bicubic, back cubic", {Filter::kBicubic, Sampling::kCubic, false}},
+    {"--as-thesis, bilinear", {Filter::kBilinear, Sampling::kLinear, true}},
+};
+
+using Map = std::shared_ptr<const converters::HeightMap>;
+
+Setting setting_of(std::string name, const RoundTripMethod& way, int level, const Map& map, const Map& truth,
+                   bool is_default) {
+  const converters::RoundTripLoss loss = converters::round_trip(*map, way, level, *truth);
+  const auto cost = [=] { return 1e3 * converters::round_trip(*map, way, level, *truth).there_s; };
+  return {std::move(name),
+          {loss.max_m, loss.rms_m,
+           "pixel " + std::to_string(loss.worst_x) + "," + std::to_string(loss.worst_y) + " of " +
+               std::to_string(truth->width) + "x" + std::to_string(truth->height())},
+          cost,
+          is_default};
+}
+
+Study study_of(std::string name, std::string title, std::string knob, const Map& truth) {
+  return {
+      std::move(name),
+      std::move(title),
+      std::move(knob),
+      "the function itself: harmonics to degree 64, 1000 m RMS",
+      std::to_string(truth->metres.size()) + " pixels of the whole planet, the poles included; RMS by area",
+      "m",
+      "ms a map, sampling alone",
+      {}};
+}
+
+}  // namespace
+
+std::vector<Study> conversion_studies(const Scope& scope) {
+  const int width = scope.full ? 1024 : 512;
+  const int own_level = scope.full ? 8 : 7;  // as many cells around the equator as pixels
+  const converters::Harmonics relief(64, 20261124, 1000.0);
+  const Map map = std::make_shared<const converters::HeightMap>(map_of(relief, width));
+  // Of another width, so that what lies between the samples counts.
+  const Map truth = std::make_shared<const converters::HeightMap>(map_of(relief, width * 3 / 2));
+  std::vector<Study> studies;
+  for (const int level : {own_level - 1, own_level, own_level + 1}) {
+    Study study = study_of("conversion.filter.l" + std::to_string(level),
+                           "A map of " + std::to_string(width) + " pixels to level " + std::to_string(level) +
+                               " and back, by filter",
+                           "convert --filter", truth);
+    for (const Method& method : kMethods) {
+      const bool is_default =
+          method.method.filter == (level < own_level ? Filter::kArea : Filter::kBilinear) &&
+          !method.method.as_thesis;
+      study.settings.push_back(setting_of(method.name, method.method, level, map, truth, is_default));
+    }
+    studies.push_back(std::move(study));
+  }
+  Study levels = study_of("conversion.level", "The same by level, bilinear", "convert --level", truth);
+  for (int level = own_level - 2; level <= own_level + (scope.full ? 3 : 2); ++level) {
+    levels.settings.push_back(setting_of("level " + std::to_string(level),
+                                         {Filter::kBilinear, Sampling::kLinear, false}, level, map, truth,
+                                         level == own_level));
+  }
+  studies.push_back(std::move(levels));
+  return studies;
+}
+
+}  // namespace app::accuracy

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/accuracy/measure.h"
+
+namespace app::accuracy {
+
+/// What a reader has to know to repeat a report.
+struct Provenance {
+  std::string command;
+  std::string suite;
+  std::vector<std::pair<std::string, std::string>> facts;  ///< machine, libraries, renderer: name and value
+};
+
+/// Facts of this machine and program.
+Provenance provenance(const std::string& command, const std::string& suite);
+
+/// A line for each setting, for a terminal.
+std::string text_of(const std::vector<MeasuredStudy>& studies);
+
+/// One row a setting, a header line, figures at full precision.
+std::string csv_of(const std::vector<MeasuredStudy>& studies);
+
+/// One object: the provenance and the studies.
+std::string json_of(const Provenance& provenance, const std::vector<MeasuredStudy>& studies);
+
+/// A page that needs no other file: plots as SVG, by gnuplot, and tables. Throws Error when there is no
+/// gnuplot.
+std::string html_of(const Provenance& provenance, const std::vector<MeasuredStudy>& studies);
+
+/// A study's error against its cost as an SVG drawing, both logarithmic, the front joined, the default
+/// filled.
+std::string plot_of(const MeasuredStudy& study);
+
+/// A figure for people: three digits.
+std::string figure(double value);
+
+}  // namespace app::accuracy

@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/refusals.h"
+#include "tests/cli/run_program.h"
+#include "tests/temporary_folder.h"
+
+namespace {
+
+using cli::Outcome;
+using cli::run_program;
+using nlohmann::json;
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+TEST(AccuracyCommand, GivesTheSameErrorsTwiceAndTimesWithTheirQuartiles) {
+  const tests::TemporaryFolder folder;
+  std::vector<json> reports;
+  for (const char* name : {"a", "b"}) {
+    const Outcome run =
+        run_program({"accuracy", "-o", (folder / name).string(), "--only", "geodesics", "--quiet"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("Karney"), std::string::npos);
+    reports.push_back(json::parse(text_of(folder / name / "accuracy.json")));
+    EXPECT_NE(text_of(folder / name / "accuracy.html").find("<svg"), std::string::npos);
+  }
+  ASSERT_EQ(reports[0]["studies"].size(), 3u);
+  for (std::size_t s = 0; s < reports[0]["studies"].size(); ++s) {
+    const json &a = reports[0]["studies"][s]["settings"], &b = reports[1]["studies"][s]["settings"];
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      for (const char* key : {"name", "error_max", "error_rms", "error_where"})
+        EXPECT_EQ(a[k][key], b[k][key]);
+      EXPECT_LE(a[k]["cost_q1"], a[k]["cost_median"]);
+      EXPECT_LE(a[k]["cost_median"], a[k]["cost_q3"]);
+      EXPECT_GE(a[k]["runs"], 7);
+    }
+  }
+  const std::string csv = text_of(folder / "a/accuracy.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3 + 3 + 2);
+}
+
+TEST(AccuracyCommand, RefusesInOneLine) {
+  const tests::TemporaryFolder folder;
+  std::ofstream(folder / "accuracy.csv") << "mine";
+  cli::expect_refusals("accuracy", {{{}, 2},
+                                    {{"-o", folder.path().string(), "--only", "alchemy"}, 2},
+                                    {{"-o", folder.path().string(), "--suite", "long"}, 2},
+                                    {{"-o", folder.path().string(), "--only", "storage"}, 1}});
+  EXPECT_EQ(text_of(folder / "accuracy.csv"), "mine");
+}
+
+}  // namespace
