@@ -1,10 +1,8 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <memory>
-#include <thread>
 
 #include "app/bench.h"
 #include "app/raw_gl.h"
@@ -118,10 +116,7 @@ std::vector<BenchmarkEntry> flight_benchmarks(int rounds) {
   const auto add = [&](const std::string& name, const Settings& settings) {
     entries.push_back({name, [=] {
                          auto flight = std::make_shared<FlightRun>(world(), settings);
-                         const auto settle = [flight] {
-                           while (flight->renderer.is_loading())
-                             std::this_thread::sleep_for(std::chrono::milliseconds(1));
-                         };
+                         const auto settle = [flight] { flight->renderer.await_computing(); };
                          return Benchmark{name, 1, [flight] { flight->draw_next(); }, settle};
                        }});
   };

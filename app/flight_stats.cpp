@@ -32,6 +32,8 @@ void FlightStats::write(const std::string& path) const {
   using nlohmann::json;
   json frames = json::array();
   std::vector<double> times;
+  std::size_t upload_bytes = 0, complete = 0;
+  double completeness = 0.0;
   for (const Frame& f : frames_) {
     times.push_back(f.frame_ms);
     frames.push_back({{"frame", f.frame},
@@ -45,10 +47,18 @@ void FlightStats::write(const std::string& path) const {
                       {"triangles", f.drawn.triangles},
                       {"patches", f.drawn.patches},
                       {"upload_bytes", f.drawn.upload_bytes},
+                      {"upload_ms", f.drawn.upload_ms},
                       {"queued_jobs", f.drawn.queued_jobs},
+                      {"queued_bytes", f.drawn.queued_bytes},
+                      {"gpu_bytes", f.drawn.gpu_bytes},
                       {"finest_level", f.drawn.finest_level},
+                      {"completeness", f.drawn.completeness},
                       {"complete", f.drawn.complete}});
+    upload_bytes += f.drawn.upload_bytes;
+    completeness += f.drawn.completeness;
+    complete += f.drawn.complete ? 1 : 0;
   }
+  const auto count = static_cast<double>(std::max<std::size_t>(frames_.size(), 1));
   const json document{{"renderer", renderer_},
                       {"gl_version", gl_version_},
                       {"width", width_},
@@ -62,7 +72,10 @@ void FlightStats::write(const std::string& path) const {
                         {"frame_ms_p10", percentile(times, 10)},
                         {"frame_ms_p90", percentile(times, 90)},
                         {"frame_ms_p99", percentile(times, 99)},
-                        {"frame_ms_max", percentile(times, 100)}}}};
+                        {"frame_ms_max", percentile(times, 100)},
+                        {"upload_bytes", upload_bytes},
+                        {"completeness", completeness / count},
+                        {"complete", static_cast<double>(complete) / count}}}};
   const std::string partial = path + ".partial";
   {
     std::ofstream file(partial);
@@ -84,19 +97,23 @@ std::string FlightStats::table(std::size_t gpu_bytes) const {
         rows == 1 ? 0
                   : static_cast<std::size_t>(row) * (frames_.size() - 1) / static_cast<std::size_t>(rows - 1);
     const Frame& f = frames_[k];
-    std::snprintf(line, sizeof line, "%8d %12.1f m %6d %10zu %8zu %7.1f %8.0f KiB  %s\n", f.frame,
+    std::snprintf(line, sizeof line, "%8d %12.1f m %6d %10zu %8zu %7.1f %8.0f KiB  %6.0f %%\n", f.frame,
                   f.above_ground_m, f.drawn.finest_level, f.drawn.triangles, f.drawn.patches, f.frame_ms,
-                  static_cast<double>(f.drawn.upload_bytes) / 1024.0, f.drawn.complete ? "yes" : "no");
+                  static_cast<double>(f.drawn.upload_bytes) / 1024.0, 100.0 * f.drawn.completeness);
     text += line;
   }
   std::vector<double> times;
-  for (const Frame& f : frames_) times.push_back(f.frame_ms);
+  std::size_t complete = 0;
+  for (const Frame& f : frames_) {
+    times.push_back(f.frame_ms);
+    complete += f.drawn.complete ? 1 : 0;
+  }
   std::snprintf(line, sizeof line,
                 "%zu frames of %dx%d, detail %d: median %.1f ms, p90 %.1f, p99 %.1f, max %.1f; ",
                 frames_.size(), width_, height_, detail_, percentile(times, 50), percentile(times, 90),
                 percentile(times, 99), percentile(times, 100));
   text += line;
-  std::snprintf(line, sizeof line, "%.0f MiB of textures\n",
+  std::snprintf(line, sizeof line, "%zu complete; %.0f MiB of textures\n", complete,
                 static_cast<double>(gpu_bytes) / (1024.0 * 1024.0));
   return text + line + renderer_ + ", OpenGL " + gl_version_ + "\n";
 }

@@ -15,9 +15,9 @@
 #include "app/contact_sheet.h"
 #include "app/flight.h"
 #include "app/flight_stats.h"
+#include "app/frame_budget.h"
 #include "app/frame_clock.h"
 #include "app/frame_sink.h"
-#include "app/planet_argument.h"
 #include "app/point.h"
 #include "app/progress.h"
 #include "app/view_options.h"
@@ -38,6 +38,7 @@ namespace render = globe::render;
 constexpr double kOrbit = 20'000'000.0;  ///< metres above the target
 constexpr double kFinalHeight = 200.0;   ///< metres above ground where a flight ends unless --to says more
 constexpr double kLongestTurn = 0.1;     ///< seconds that a film with few frames a second waits for each
+constexpr double kLongestBudget = 10'000.0;  ///< milliseconds
 
 struct FlyOptions {
   ViewOptions view;
@@ -48,6 +49,7 @@ struct FlyOptions {
   std::string stats;
   std::string contact_sheet;
   bool wait = false;
+  std::optional<double> budget_ms;
 };
 
 /// An end of the flight: ALT counts from the ellipsoid, or from the ground with --agl; without ALT `fallback`
@@ -87,10 +89,14 @@ void run(const FlyOptions& options) {
     throw globe::UsageError("--frames " + std::to_string(options.frames), "not 1 to 1000000",
                             "give a number in that range");
   }
+  if (options.budget_ms && !(*options.budget_ms >= 0.0 && *options.budget_ms <= kLongestBudget)) {
+    throw globe::UsageError("--budget " + std::to_string(*options.budget_ms), "not 0 to 10000 milliseconds",
+                            "give what a frame may take, such as 33");
+  }
   const render::RenderSettings settings = render_settings(view);
   refuse_existing(options.stats, view.overwrite);
   refuse_existing(options.contact_sheet, view.overwrite);
-  const auto surface = open_planet(view.planet);
+  const auto surface = open_planet(view);
   const geo::Ellipsoid& ellipsoid = surface->ellipsoid();
 
   const globe::gl::Context context(view.device);
@@ -132,6 +138,7 @@ void run(const FlyOptions& options) {
   globe::gl::TimerQuery timer = globe::gl::TimerQuery::create();
   FrameClock clock(
       std::chrono::duration<double>(options.wait ? 0.0 : std::min(1.0 / options.fps, kLongestTurn)));
+  FrameBudget budget(options.budget_ms);
   for (int k = 0; k < options.frames; ++k) {
     clock.await_turn();
     const double t = options.frames == 1 ? 1.0 : static_cast<double>(k) / (options.frames - 1);
@@ -139,11 +146,12 @@ void run(const FlyOptions& options) {
     const Flight::View at = flight.at(t, options.wait);
     const render::Camera camera = camera_at(at);
     timer.begin();
-    const render::FrameStats frame = renderer.draw(camera, sun, options.wait, target);
+    const render::FrameStats frame = renderer.draw(camera, sun, options.wait, target, budget.uploads_ms());
     target.resolve();
     timer.end();
     glFinish();
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    budget.note(took.count(), frame.upload_ms);
     const double above = renderer.height_above_ground(camera.position, options.wait);
     stats.add({k, at.place, above, took.count(), timer.wait_milliseconds(), frame});
     const std::vector<std::uint8_t> rgba = target.read_rgba8();
@@ -156,7 +164,7 @@ void run(const FlyOptions& options) {
   if (sheet) sheet->write(options.contact_sheet, view.overwrite);
   if (!options.stats.empty()) stats.write(options.stats);
   if (!view.quiet)
-    std::fputs(stats.table(renderer.gpu_bytes()).c_str(), view.output == "-" ? stderr : stdout);
+    std::fputs(stats.table(renderer.textures().bytes()).c_str(), view.output == "-" ? stderr : stdout);
   if (!context.errors().empty())
     throw globe::Error("OpenGL", context.errors().front(), "try --device software");
 }
@@ -180,6 +188,12 @@ void add_fly(CLI::App& program) {
   command->add_flag(
       "--wait", options->wait,
       "load each frame wholly: deterministic pictures; without it frames are drawn in real time");
+  command
+      ->add_option("--budget", options->budget_ms,
+                   "milliseconds for a frame: uploads take what drawing leaves of them, and at least a "
+                   "little (default: a "
+                   "third more than drawing takes)")
+      ->check(CLI::Range(0.0, 10000.0));
   command->callback([options] { run(*options); });
 }
 

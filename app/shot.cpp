@@ -4,7 +4,6 @@
 
 #include "app/commands.h"
 #include "app/image_file.h"
-#include "app/planet_argument.h"
 #include "app/standing_camera.h"
 #include "app/view_options.h"
 #include "globe/base/error.h"
@@ -60,7 +59,7 @@ void run(const ShotOptions& options) {
   if (!view.overwrite && std::filesystem::exists(view.output)) {
     throw globe::Error(view.output, "the file exists", "give another name or --overwrite");
   }
-  const auto surface = open_planet(view.planet);
+  const auto surface = open_planet(view);
   const glm::dvec3 sun = sun_for(view, *surface, at.position.lon_deg);
 
   const globe::gl::Context context(view.device);

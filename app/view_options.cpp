@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "app/planet_argument.h"
 #include "globe/base/error.h"
 #include "globe/geo/sun.h"
 
@@ -73,6 +74,14 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
   command.add_flag("--quiet", options.quiet, "warnings and errors only");
   command.add_option("--device", options.device, "auto, software, or the number of an EGL device")
       ->capture_default_str();
+  command.add_option("--memory", options.memory_mb, "MB of decoded maps and of ground made of them to keep")
+      ->capture_default_str()
+      ->check(CLI::Range(64, 1 << 20));
+}
+
+std::shared_ptr<const globe::planet::Surface> open_planet(const ViewOptions& options) {
+  const std::size_t bytes = static_cast<std::size_t>(options.memory_mb) << 20;
+  return open_planet(options.planet, bytes / 5 * 2, bytes / 5 * 3);
 }
 
 Look parse_look(const std::string& text) {

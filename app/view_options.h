@@ -35,9 +35,13 @@ struct ViewOptions : CameraOptions {
   bool overwrite = false;
   bool quiet = false;
   std::string device = "auto";
+  int memory_mb = 640;
 };
 
 void add_view_options(CLI::App& command, ViewOptions& options);
+
+/// Opens the planet with --memory for its data. Throws what open_planet (app/planet_argument.h) throws.
+std::shared_ptr<const globe::planet::Surface> open_planet(const ViewOptions& options);
 
 /// Heading and pitch, degrees.
 struct Look {

@@ -7,10 +7,10 @@
 // One layer of the windows: a level's share of one diamond. Mirrored by render::SlotBlock.
 struct Slot {
   vec4 offset;     // anchor - camera, metres; w: fade of the level
-  ivec4 torus;     // texel of the first node (i, j), layer, slot of the coarser level in this diamond
+  ivec4 torus;     // texel of the first node (i, j), layer of its vertices, slot of the coarser level in this diamond
   ivec4 images_a;  // nearest images of the nadir from the first node, 1/1024 cells
   ivec4 images_b;
-  ivec4 coarse;    // first node - 2 * coarser slot's first node (i, j), level
+  ivec4 coarse;    // first node - 2 * coarser slot's first node (i, j), level, layer of its shading
   vec4 shading;    // texture coordinate of the first node, and of a cell
 };
 layout(std140, binding = 1) uniform Slots { Slot slots[MAX_SLOTS]; };
@@ -97,9 +97,9 @@ void main() {
   shading.texel = vec2(node) * slot.shading.zw + slot.shading.xy;
 #endif
 #ifdef MORPH
-  layers = vec3(slot.torus.z, coarse.torus.z, slot.coarse.z);
+  layers = vec3(slot.coarse.w, coarse.coarse.w, slot.coarse.z);
 #else
-  layers = vec3(slot.torus.z, slot.torus.z, slot.coarse.z);
+  layers = vec3(slot.coarse.w, slot.coarse.w, slot.coarse.z);
 #endif
 
   vec3 relative_km = position * 1e-3;

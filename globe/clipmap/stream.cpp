@@ -12,8 +12,7 @@
 namespace globe::clipmap {
 namespace {
 
-constexpr double kStepCost = 1.5;  ///< levels filled from nothing in one step, strips counted by their share
-constexpr double kStripCost = 0.15;
+constexpr double kLeastCost = 0.05;  ///< of a level of which most stays; 1: filled from nothing
 constexpr int kLitPerStep = 2;  ///< levels lit anew in one step because the sun moved: some 2 MB to send each
 constexpr int kNiceness = 5;
 
@@ -31,19 +30,30 @@ std::size_t StateUpdate::upload_bytes() const {
   return bytes;
 }
 
-bool still_holds(const Settings& settings, const ClipmapState& state, const Target& target) {
-  if (state.finest_level() < target.finest) return false;
-  for (int level = settings.base_level; level <= target.finest; ++level) {
-    const auto& data = state.levels[static_cast<std::size_t>(level - settings.base_level)];
-    if (!(data->lighting == target.lighting)) return false;
-    if (level == settings.base_level) continue;
-    if (!(nearest_lattice_node(nadir(target.u, level), settings.unit()) == data->region.centre)) return false;
+int levels_in_place(const Settings& settings, const ClipmapState& state, const dvec3& u) {
+  int count = 1;  // the base level always is
+  for (; count < static_cast<int>(state.levels.size()); ++count) {
+    const Region& region = state.levels[static_cast<std::size_t>(count)]->region;
+    if (!(nearest_lattice_node(nadir(u, region.level), settings.unit()) == region.centre)) break;
   }
-  return true;
+  return count;
+}
+
+int levels_ready(const Settings& settings, const ClipmapState& state, const Target& target) {
+  const int wanted = target.finest - settings.base_level + 1;
+  int count = 0;
+  const int in_place = std::min(levels_in_place(settings, state, target.u), wanted);
+  while (count < in_place && state.levels[static_cast<std::size_t>(count)]->lighting == target.lighting)
+    ++count;
+  return count;
+}
+
+bool still_holds(const Settings& settings, const ClipmapState& state, const Target& target) {
+  return levels_ready(settings, state, target) == target.finest - settings.base_level + 1;
 }
 
 StateUpdate advance(const Settings& settings, const planet::Surface& surface, const Target& target,
-                    const ClipmapState* before, Stride stride) {
+                    const ClipmapState* before, Stride stride, int fills) {
   const int wanted = target.finest - settings.base_level + 1;
   const auto held_at = [&](int k) -> const LevelData* {
     const auto index = static_cast<std::size_t>(k);
@@ -62,16 +72,16 @@ StateUpdate advance(const Settings& settings, const planet::Surface& surface, co
     double cost = 0.0;
     int lit = 0;
     last_lit = -1;
-    for (count = 0; count < wanted && cost < kStepCost; ++count) {
+    for (count = 0; count < wanted && cost < fills - 0.5; ++count) {
       if (in_place(count)) {
         lit += is_lit(count) ? 0 : 1;
         if (lit <= kLitPerStep) last_lit = count;
         continue;
       }
       const LevelData* held = held_at(count);
-      const bool overlaps =
-          held != nullptr && share_kept(settings, *held, nadir(target.u, settings.base_level + count)) > 0.5;
-      cost += overlaps ? kStripCost : 1.0;
+      const double kept =
+          held != nullptr ? share_kept(settings, *held, nadir(target.u, settings.base_level + count)) : 0.0;
+      cost += std::clamp(1.0 - kept, kLeastCost, 1.0);
     }
   }
   const auto stays = [&](int k) { return in_place(k) && (is_lit(k) || k > last_lit); };
@@ -90,6 +100,10 @@ StateUpdate advance(const Settings& settings, const planet::Surface& surface, co
                      target.lighting, held_at(k));
     state->levels[index] = updates[index].data;
   });
+  if (count == wanted) {
+    for (int k = count; held_at(k) != nullptr && in_place(k); ++k)
+      state->levels.push_back(before->levels[static_cast<std::size_t>(k)]);
+  }
   StateUpdate update{std::move(state), {}};
   for (LevelUpdate& level : updates) {
     if (level.data) update.levels.push_back(std::move(level));
@@ -122,6 +136,25 @@ std::optional<StateUpdate> Stream::take() {
   return std::exchange(result_, std::nullopt);
 }
 
+void Stream::forget() {
+  const std::lock_guard lock(mutex_);
+  result_.reset();
+  if (busy_)
+    unwanted_ = true;
+  else
+    job_.reset();
+}
+
+bool Stream::is_idle() const {
+  const std::lock_guard lock(mutex_);
+  return !busy_ && !result_;
+}
+
+void Stream::await() const {
+  std::unique_lock lock(mutex_);
+  done_.wait(lock, [this] { return !job_; });
+}
+
 int Stream::pending() const {
   const std::lock_guard lock(mutex_);
   if (!job_) return 0;
@@ -131,7 +164,8 @@ int Stream::pending() const {
 void Stream::work(const std::stop_token& stop) {
   // Drawing comes first: half the cores, and this thread gives way (on Linux niceness is a thread's own).
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
-  tbb::task_arena arena(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2));
+  const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2);
+  tbb::task_arena arena(threads);
   for (;;) {
     Job job;
     {
@@ -143,16 +177,21 @@ void Stream::work(const std::stop_token& stop) {
     std::optional<StateUpdate> result;
     std::exception_ptr failure;
     try {
-      arena.execute(
-          [&] { result = advance(settings_, *surface_, job.target, job.before.get(), Stride::kStep); });
+      arena.execute([&] {
+        result =
+            advance(settings_, *surface_, job.target, job.before.get(), Stride::kStep, std::max(2, threads));
+      });
     } catch (...) {
       failure = std::current_exception();
     }
-    const std::lock_guard lock(mutex_);
-    busy_ = false;
-    job_.reset();
-    result_ = std::move(result);
-    failure_ = failure;
+    {
+      const std::lock_guard lock(mutex_);
+      busy_ = false;
+      job_.reset();
+      failure_ = failure;
+      if (!std::exchange(unwanted_, false)) result_ = std::move(result);
+    }
+    done_.notify_all();
   }
 }
 

@@ -12,6 +12,23 @@ int wrapped(int x, int n) {
   return remainder < 0 ? remainder + n : remainder;
 }
 
+/// The up to four parts of a box that a torus of a width and height keeps together: visit(texels, columns and
+/// rows of the box before them).
+template <class Visit>
+void for_each_unwrapped(const TexelBox& box, int torus_width, int torus_height, const Visit& visit) {
+  for (int row = 0; row < box.height;) {
+    const int y = wrapped(box.y + row, torus_height);
+    const int rows = std::min(box.height - row, torus_height - y);
+    for (int column = 0; column < box.width;) {
+      const int x = wrapped(box.x + column, torus_width);
+      const int columns = std::min(box.width - column, torus_width - x);
+      visit(TexelBox{x, y, columns, rows, box.layer, 0}, column, row);
+      column += columns;
+    }
+    row += rows;
+  }
+}
+
 }  // namespace
 
 PixelLayout pixel_layout(GLenum format) {
@@ -116,20 +133,21 @@ void Texture::upload_wrapped(const TexelBox& box, const void* data, int row_leng
   assert(box.level == 0 && box.width <= width_ && box.height <= height_);
   const std::size_t texel = pixel_layout(format_).bytes_per_texel;
   const int stride = row_length == 0 ? box.width : row_length;
-  for (int row = 0; row < box.height;) {
-    const int y = wrapped(box.y + row, height_);
-    const int rows = std::min(box.height - row, height_ - y);
-    for (int column = 0; column < box.width;) {
-      const int x = wrapped(box.x + column, width_);
-      const int columns = std::min(box.width - column, width_ - x);
-      const std::size_t first =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(column);
-      upload({x, y, columns, rows, box.layer, 0}, static_cast<const std::byte*>(data) + first * texel,
-             stride);
-      column += columns;
-    }
-    row += rows;
-  }
+  for_each_unwrapped(box, width_, height_, [&](const TexelBox& texels, int column, int row) {
+    const std::size_t first =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(column);
+    upload(texels, static_cast<const std::byte*>(data) + first * texel, stride);
+  });
+}
+
+void Texture::copy_wrapped(const Texture& from, int from_layer, const TexelBox& box) {
+  assert(is_array_ && box.level == 0 && box.width <= width_ && box.height <= height_);
+  assert(from.format_ == format_ && from.width_ == width_ && from.height_ == height_);
+  for_each_unwrapped(box, width_, height_, [&](const TexelBox& texels, int, int) {
+    glCopyImageSubData(from.id(), GL_TEXTURE_2D_ARRAY, 0, texels.x, texels.y, from_layer, id(),
+                       GL_TEXTURE_2D_ARRAY, 0, texels.x, texels.y, texels.layer, texels.width, texels.height,
+                       1);
+  });
 }
 
 void Texture::read(const TexelBox& box, void* data, std::size_t size) const {
@@ -137,16 +155,6 @@ void Texture::read(const TexelBox& box, void* data, std::size_t size) const {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glGetTextureSubImage(id(), box.level, box.x, box.y, box.layer, box.width, box.height, 1, layout.format,
                        layout.type, static_cast<GLsizei>(size), data);
-}
-
-Texture Texture::grown(int layers) const {
-  assert(is_array_ && layers >= layers_);
-  Texture result = array(format_, width_, height_, layers, levels_);
-  for (int level = 0; level < levels_; ++level) {
-    glCopyImageSubData(id(), GL_TEXTURE_2D_ARRAY, level, 0, 0, 0, result.id(), GL_TEXTURE_2D_ARRAY, level, 0,
-                       0, 0, std::max(1, width_ >> level), std::max(1, height_ >> level), layers_);
-  }
-  return result;
 }
 
 void Texture::set_filter(GLenum minify, GLenum magnify) {

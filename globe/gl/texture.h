@@ -51,6 +51,10 @@ class Texture {
   /// (x mod width, y mod height). The box is at most as large as the texture. Up to four uploads.
   void upload_wrapped(const TexelBox& box, const void* data, int row_length = 0);
 
+  /// Toroidal copy of a box from layer `from_layer` of `from`, which has this texture's format, width and
+  /// height, to the same texels of box.layer here, on the GPU. Not onto itself. (glCopyImageSubData)
+  void copy_wrapped(const Texture& from, int from_layer, const TexelBox& box);
+
   /// Waits for the GPU and copies a box out, in pixel_layout(format()). (glGetTextureSubImage)
   void read(const TexelBox& box, void* data, std::size_t size) const;
   template <class T>
@@ -60,10 +64,6 @@ class Texture {
     read(box, texels.data(), texels.size() * sizeof(T));
     return texels;
   }
-
-  /// A copy with `layers` layers, at least as many as here, made on the GPU; the new layers are undefined.
-  /// Filters and wrapping start anew. Arrays only. (glCopyImageSubData)
-  Texture grown(int layers) const;
 
   /// GL_NEAREST, GL_LINEAR and, to minify, the mipmap filters. (glTextureParameteri)
   void set_filter(GLenum minify, GLenum magnify);

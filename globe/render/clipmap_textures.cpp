@@ -2,116 +2,283 @@
 
 #include <epoxy/gl.h>
 
-#include <set>
+#include <algorithm>
+#include <cassert>
+#include <limits>
 
 namespace globe::render {
 namespace {
 
+using clipmap::LevelData;
+using clipmap::NodeRect;
+using planet::kDiamonds;
+
 constexpr int kFirstLayers = 24;  ///< a camera away from diamond edges needs one a level
 
-gl::TexelBox box_of(const clipmap::NodeRect& rect, int layer) {
-  return {rect.i0, rect.j0, rect.width(), rect.height(), layer};
+/// True when a torus of `side` texels holds both rectangles without one overwriting the other.
+bool fit_together(const NodeRect& a, const NodeRect& b, int side) {
+  return std::max(a.i1, b.i1) - std::min(a.i0, b.i0) < side &&
+         std::max(a.j1, b.j1) - std::min(a.j0, b.j0) < side;
+}
+
+NodeRect whole_torus(int side) { return {0, side - 1, 0, side - 1}; }
+
+constexpr std::size_t kLitBytes = sizeof(glm::u8vec4) + sizeof(std::uint8_t);
+constexpr std::size_t kKnotBytes = 2 * sizeof(glm::vec4);
+
+std::size_t vertex_bytes(const clipmap::Settings& settings) {
+  return clipmap::is_interpolated(settings.positions) ? sizeof(float) : 2 * sizeof(glm::vec4);
+}
+
+std::vector<LayerPool::Plane> vertex_planes(const clipmap::Settings& settings) {
+  const int side = settings.window();
+  if (!clipmap::is_interpolated(settings.positions)) return {{GL_RGBA32F, side}, {GL_RGBA32F, side}};
+  return {{GL_R32F, side}, {GL_RGBA32F, side / settings.knot_step(), 2}};
+}
+
+std::vector<LayerPool::Plane> shading_planes(const clipmap::Settings& settings) {
+  return {{GL_RGBA8, settings.shading_window()}, {GL_R8, settings.shading_window()}};
 }
 
 }  // namespace
 
-ClipmapTextures::ClipmapTextures(const clipmap::Settings& settings) : settings_(settings) {
-  const int w = settings.window();
-  const int shading = settings.shading_window();
-  if (clipmap::is_interpolated(settings.positions)) {
-    const int knots = w / settings.knot_step();
-    positions_ = gl::Texture::array(GL_R32F, w, w, kFirstLayers);
-    coarse_ = gl::Texture::array(GL_RGBA32F, knots, knots, 2 * kFirstLayers);
-  } else {
-    positions_ = gl::Texture::array(GL_RGBA32F, w, w, kFirstLayers);
-    coarse_ = gl::Texture::array(GL_RGBA32F, w, w, kFirstLayers);
-  }
-  lit_ = gl::Texture::array(GL_RGBA8, shading, shading, kFirstLayers);
-  water_ = gl::Texture::array(GL_R8, shading, shading, kFirstLayers);
-  for (int layer = kFirstLayers - 1; layer >= 0; --layer) free_.push_back(layer);
-  set_sampling();
+ClipmapTextures::ClipmapTextures(const clipmap::Settings& settings, UploadQueue::Clock clock)
+    : settings_(settings),
+      vertices_(vertex_planes(settings), GL_NEAREST, kFirstLayers),
+      shading_(shading_planes(settings), GL_LINEAR, kFirstLayers),
+      queue_(std::move(clock)) {}
+
+void ClipmapTextures::begin(clipmap::StateUpdate update) { begin(std::move(update), true); }
+
+void ClipmapTextures::begin(clipmap::StateUpdate update, bool beside_drawn) {
+  assert(!loading_);
+  loading_ = Loading{std::move(update), {}, beside_drawn};
+  if (!beside_drawn) release_unused();
+  assign_layers();
+  queue_copies();
+  queue_blocks();
 }
 
-void ClipmapTextures::set_sampling() {
-  for (gl::Texture* texture : {&positions_, &coarse_, &lit_, &water_}) texture->set_wrap(GL_REPEAT);
-  for (gl::Texture* texture : {&positions_, &coarse_}) texture->set_filter(GL_NEAREST, GL_NEAREST);
-  for (gl::Texture* texture : {&lit_, &water_}) texture->set_filter(GL_LINEAR, GL_LINEAR);
+std::size_t ClipmapTextures::upload(double ms) {
+  std::size_t bytes = 0;
+  queue_.run(ms, [&](const UploadJob& job) {
+    perform(job);
+    if (job.vertices != nullptr || job.shading != nullptr) bytes += job.bytes();
+  });
+  return bytes;
 }
 
-std::size_t ClipmapTextures::apply(const clipmap::StateUpdate& update) {
-  std::set<std::pair<int, int>> wanted;
-  for (const auto& level : update.state->levels) {
-    for (int d = 0; d < planet::kDiamonds; ++d) {
-      if (!level->vertices[static_cast<std::size_t>(d)].empty()) wanted.insert({level->region.level, d});
+std::shared_ptr<const clipmap::ClipmapState> ClipmapTextures::swap() {
+  assert(is_loaded());
+  for (const auto& [share, old] : layers_) {
+    const auto found = loading_->layers.find(share);
+    const Layers now = found == loading_->layers.end() ? Layers{} : found->second;
+    if (old.vertices != now.vertices) vertices_.release(old.vertices);
+    if (old.shading != now.shading) shading_.release(old.shading);
+  }
+  vertices_.finish_growth();
+  shading_.finish_growth();
+  layers_ = std::move(loading_->layers);
+  drawn_ = std::move(loading_->update.state);
+  loading_.reset();
+  return drawn_;
+}
+
+void ClipmapTextures::abandon() {
+  if (!loading_) return;
+  queue_.clear();
+  for (const auto& [share, taken] : loading_->layers) {
+    const auto found = layers_.find(share);
+    const Layers drawn = found == layers_.end() ? Layers{} : found->second;
+    if (taken.vertices != drawn.vertices) vertices_.release(taken.vertices);
+    if (taken.shading != drawn.shading) shading_.release(taken.shading);
+  }
+  vertices_.abandon_growth();
+  shading_.abandon_growth();
+  loading_.reset();
+}
+
+std::size_t ClipmapTextures::apply(clipmap::StateUpdate update) {
+  begin(std::move(update), false);
+  const std::size_t bytes = upload(std::numeric_limits<double>::infinity());
+  swap();
+  return bytes;
+}
+
+const LevelData* ClipmapTextures::drawn_level(int level) const {
+  if (!drawn_ || level > drawn_->finest_level()) return nullptr;
+  return drawn_->levels[static_cast<std::size_t>(level - drawn_->base_level())].get();
+}
+
+ClipmapTextures::Layers ClipmapTextures::kept_layers(const LevelData& next, int d) const {
+  const auto found = layers_.find({next.region.level, d});
+  if (found == layers_.end()) return {};
+  const LevelData& drawn = *drawn_level(next.region.level);
+  if (&drawn == &next || !loading_->beside_drawn) return found->second;
+  const auto k = static_cast<std::size_t>(d);
+  Layers kept;
+  if (drawn.anchor == next.anchor && fit_together(drawn.vertices[k], next.vertices[k], vertices_.side(0)))
+    kept.vertices = found->second.vertices;
+  if (drawn.lighting == next.lighting && fit_together(drawn.shading[k], next.shading[k], shading_.side(0)))
+    kept.shading = found->second.shading;
+  return kept;
+}
+
+void ClipmapTextures::release_unused() {
+  const auto& levels = loading_->update.state->levels;
+  std::erase_if(layers_, [&](const auto& entry) {
+    const auto [level, d] = entry.first;
+    if (level <= levels.back()->region.level &&
+        !levels[static_cast<std::size_t>(level - levels.front()->region.level)]
+             ->vertices[static_cast<std::size_t>(d)]
+             .empty())
+      return false;
+    vertices_.release(entry.second.vertices);
+    shading_.release(entry.second.shading);
+    return true;
+  });
+}
+
+void ClipmapTextures::assign_layers() {
+  int fresh_vertices = 0, fresh_shading = 0;
+  for (const auto& level : loading_->update.state->levels) {
+    for (int d = 0; d < kDiamonds; ++d) {
+      if (level->vertices[static_cast<std::size_t>(d)].empty()) continue;
+      const Layers kept = kept_layers(*level, d);
+      fresh_vertices += kept.vertices < 0 ? 1 : 0;
+      fresh_shading += kept.shading < 0 ? 1 : 0;
+      loading_->layers[{level->region.level, d}] = kept;
     }
   }
-  for (auto at = used_.begin(); at != used_.end();) {
-    if (wanted.contains(at->first)) {
-      ++at;
-      continue;
+  if (vertices_.reserve(fresh_vertices)) {
+    for (const auto& [share, kept] : loading_->layers) {
+      if (kept.vertices >= 0) copy_vertices(kept.vertices, kept.vertices, whole_torus(vertices_.side(0)));
     }
-    free_.push_back(at->second);
-    at = used_.erase(at);
   }
-  for (const auto& [level, d] : wanted) acquire(level, d);
-  for (const clipmap::LevelUpdate& level : update.levels) {
+  if (shading_.reserve(fresh_shading)) {
+    for (const auto& [share, kept] : loading_->layers) {
+      if (kept.shading >= 0) copy_shading(kept.shading, kept.shading, whole_torus(shading_.side(0)));
+    }
+  }
+}
+
+void ClipmapTextures::copy_vertices(int layer, int from_layer, const NodeRect& nodes) {
+  queue_.add(
+      {UploadJob::Kind::kCopyVertices, layer, nodes, vertex_bytes(settings_), nullptr, nullptr, from_layer});
+  if (!clipmap::is_interpolated(settings_.positions)) return;
+  const int step = settings_.knot_step();
+  queue_.add({UploadJob::Kind::kCopyKnots,
+              layer,
+              {nodes.i0 / step, nodes.i1 / step, nodes.j0 / step, nodes.j1 / step},
+              kKnotBytes,
+              nullptr,
+              nullptr,
+              from_layer});
+}
+
+void ClipmapTextures::copy_shading(int layer, int from_layer, const NodeRect& nodes) {
+  queue_.add({UploadJob::Kind::kCopyShading, layer, nodes, kLitBytes, nullptr, nullptr, from_layer});
+}
+
+void ClipmapTextures::queue_copies() {
+  for (auto& [share, layers] : loading_->layers) {
+    const auto [level, d] = share;
+    const auto k = static_cast<std::size_t>(d);
+    const auto old = layers_.find(share);
+    const auto& levels = loading_->update.state->levels;
+    const LevelData& next = *levels[static_cast<std::size_t>(level - levels.front()->region.level)];
+    const LevelData* drawn = old == layers_.end() ? nullptr : drawn_level(level);
+    // What stays of a level that goes on in another layer; an update brings the rest.
+    if (layers.vertices < 0) {
+      layers.vertices = vertices_.acquire();
+      const NodeRect stays = drawn != nullptr && drawn->anchor == next.anchor
+                                 ? intersect(drawn->vertices[k], next.vertices[k])
+                                 : NodeRect{};
+      if (!stays.empty()) copy_vertices(layers.vertices, old->second.vertices, stays);
+    }
+    if (layers.shading < 0) {
+      layers.shading = shading_.acquire();
+      const NodeRect stays = drawn != nullptr && drawn->lighting == next.lighting
+                                 ? intersect(drawn->shading[k], next.shading[k])
+                                 : NodeRect{};
+      if (!stays.empty()) copy_shading(layers.shading, old->second.shading, stays);
+    }
+  }
+}
+
+void ClipmapTextures::queue_blocks() {
+  for (const clipmap::LevelUpdate& level : loading_->update.levels) {
     const int l = level.data->region.level;
-    for (const clipmap::VertexBlock& block : level.vertex_blocks) upload(block, layer(l, block.d));
+    for (const clipmap::VertexBlock& block : level.vertex_blocks) {
+      const int layer = loading_->layers.at({l, block.d}).vertices;
+      queue_.add(
+          {UploadJob::Kind::kVertices, layer, block.nodes, vertex_bytes(settings_), &block, nullptr, 0});
+      if (clipmap::is_interpolated(settings_.positions))
+        queue_.add({UploadJob::Kind::kKnots, layer, block.knots.knots, kKnotBytes, &block, nullptr, 0});
+    }
     for (const clipmap::ShadingBlock& block : level.shading_blocks) {
-      const gl::TexelBox box = box_of(block.nodes, layer(l, block.d));
-      lit_.upload_wrapped(box, block.lit.data());
-      water_.upload_wrapped(box, block.water.data());
+      const int layer = loading_->layers.at({l, block.d}).shading;
+      queue_.add({UploadJob::Kind::kShading, layer, block.nodes, kLitBytes, nullptr, &block, 0});
     }
   }
-  return update.upload_bytes();
 }
 
-void ClipmapTextures::upload(const clipmap::VertexBlock& block, int layer) {
-  const gl::TexelBox box = box_of(block.nodes, layer);
-  if (clipmap::is_interpolated(settings_.positions)) {
-    positions_.upload_wrapped(box, block.height.data());
-    coarse_.upload_wrapped(box_of(block.knots.knots, 2 * layer), block.knots.surface.data());
-    coarse_.upload_wrapped(box_of(block.knots.knots, 2 * layer + 1), block.knots.normal.data());
-  } else {
-    positions_.upload_wrapped(box, block.position.data());
-    coarse_.upload_wrapped(box, block.coarse.data());
+void ClipmapTextures::perform(const UploadJob& job) {
+  const auto upload = [&](LayerPool& pool, std::size_t plane, int which, const auto& texels,
+                          const NodeRect& held) {
+    const auto first =
+        static_cast<std::size_t>(job.nodes.j0 - held.j0) * static_cast<std::size_t>(held.width()) +
+        static_cast<std::size_t>(job.nodes.i0 - held.i0);
+    pool.upload(plane, job.layer, which, job.nodes, &texels[first], held.width());
+  };
+  switch (job.kind) {
+    case UploadJob::Kind::kVertices:
+      if (clipmap::is_interpolated(settings_.positions)) {
+        upload(vertices_, 0, 0, job.vertices->height, job.vertices->nodes);
+      } else {
+        upload(vertices_, 0, 0, job.vertices->position, job.vertices->nodes);
+        upload(vertices_, 1, 0, job.vertices->coarse, job.vertices->nodes);
+      }
+      break;
+    case UploadJob::Kind::kKnots:
+      upload(vertices_, 1, 0, job.vertices->knots.surface, job.vertices->knots.knots);
+      upload(vertices_, 1, 1, job.vertices->knots.normal, job.vertices->knots.knots);
+      break;
+    case UploadJob::Kind::kShading:
+      upload(shading_, 0, 0, job.shading->lit, job.shading->nodes);
+      upload(shading_, 1, 0, job.shading->water, job.shading->nodes);
+      break;
+    case UploadJob::Kind::kCopyVertices:
+      vertices_.copy_from_current(0, job.layer, job.from_layer, job.nodes);
+      if (!clipmap::is_interpolated(settings_.positions))
+        vertices_.copy_from_current(1, job.layer, job.from_layer, job.nodes);
+      break;
+    case UploadJob::Kind::kCopyKnots:
+      vertices_.copy_from_current(1, job.layer, job.from_layer, job.nodes);
+      break;
+    case UploadJob::Kind::kCopyShading:
+      shading_.copy_from_current(0, job.layer, job.from_layer, job.nodes);
+      shading_.copy_from_current(1, job.layer, job.from_layer, job.nodes);
+      break;
   }
 }
 
-int ClipmapTextures::layer(int level, int d) const {
-  const auto found = used_.find({level, d});
-  return found == used_.end() ? -1 : found->second;
+int ClipmapTextures::vertex_layer(int level, int d) const {
+  const auto found = layers_.find({level, d});
+  return found == layers_.end() ? -1 : found->second.vertices;
 }
 
-int ClipmapTextures::acquire(int level, int d) {
-  if (const auto found = used_.find({level, d}); found != used_.end()) return found->second;
-  if (free_.empty()) grow();
-  const int layer = free_.back();
-  free_.pop_back();
-  used_[{level, d}] = layer;
-  return layer;
-}
-
-void ClipmapTextures::grow() {
-  const int before = positions_.layers();
-  for (gl::Texture* texture : {&positions_, &coarse_, &lit_, &water_})
-    *texture = texture->grown(2 * texture->layers());
-  set_sampling();
-  for (int layer = 2 * before - 1; layer >= before; --layer) free_.push_back(layer);
+int ClipmapTextures::shading_layer(int level, int d) const {
+  const auto found = layers_.find({level, d});
+  return found == layers_.end() ? -1 : found->second.shading;
 }
 
 void ClipmapTextures::bind() const {
-  positions_.bind(0);
-  coarse_.bind(1);
-  lit_.bind(2);
-  water_.bind(3);
+  for (GLuint k = 0; k < 2; ++k) {
+    vertices_.texture(k).bind(k);
+    shading_.texture(k).bind(2 + k);
+  }
 }
-
-std::size_t ClipmapTextures::bytes() const {
-  return positions_.bytes() + coarse_.bytes() + lit_.bytes() + water_.bytes();
-}
-
-std::size_t ClipmapTextures::layer_bytes() const { return bytes() / static_cast<std::size_t>(layers()); }
 
 std::vector<std::string> ClipmapTextures::defines() const {
   if (!clipmap::is_interpolated(settings_.positions)) return {};

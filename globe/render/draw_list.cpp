@@ -141,16 +141,17 @@ DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::Clipma
       const int coarse_slot =
           level == settings.base_level ? static_cast<int>(list.slots.size()) : slot_of[slot_of.size() - 2][k];
       slot.torus = {modulo(rect.i0, settings.window()), modulo(rect.j0, settings.window()),
-                    textures.layer(level, d), coarse_slot};
+                    textures.vertex_layer(level, d), coarse_slot};
       const auto images = relative_images(clipmap::images(nadir, d), rect);
       slot.images_a = {images[0], images[1]};
       slot.images_b = {images[2], images[3]};
       if (level == settings.base_level) {
         slot.images_a = slot.images_b = glm::ivec4(0);  // never morphed
-        slot.coarse = {0, 0, level, 0};
+        slot.coarse = {0, 0, level, textures.shading_layer(level, d)};
       } else {
         const NodeRect& coarse = levels.data(level - 1).vertices[k];
-        slot.coarse = {rect.i0 - 2 * coarse.i0, rect.j0 - 2 * coarse.j0, level, 0};
+        slot.coarse = {rect.i0 - 2 * coarse.i0, rect.j0 - 2 * coarse.j0, level,
+                       textures.shading_layer(level, d)};
       }
       const int up = 1 << settings.shading_levels_at(level);
       const double size = settings.shading_window();

@@ -21,7 +21,6 @@ constexpr int kHazeSteps = 4;  ///< samples of the air between the eye and a ver
 constexpr std::size_t kMaxInstances = 32768;
 constexpr double kSunMoved =
     1e-3;  ///< radians (0.06 degrees) after which frames in real time light the ground anew
-constexpr float kLateFade = 0.1f;  ///< a level that arrives late morphs in by this much a frame
 
 gl::Program ground_program(const Look& look, const RenderSettings& settings,
                            const ClipmapTextures& textures) {
@@ -39,6 +38,10 @@ gl::Program ground_program(const Look& look, const RenderSettings& settings,
   return gl::Program(sources);
 }
 
+double milliseconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
 }  // namespace
 
 GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, const RenderSettings& settings)
@@ -50,7 +53,7 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
       view_(sizeof(ViewBlock)),
       slots_(kMaxSlots * sizeof(SlotBlock)),
       ground_array_(gl::VertexArray::create()),
-      textures_(settings.clipmap) {
+      loader_(settings.clipmap, surface_, settings.max_level, settings.load_ahead) {
   std::vector<std::uint16_t> indices;
   for (std::size_t rim = 0; rim < 8; ++rim) {
     index_offset_[rim] = indices.size() * sizeof(std::uint16_t);
@@ -63,47 +66,12 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
   ground_array_.set_attribute(1, {1, 4, GL_INT, 0, gl::Attribute::Kind::kInteger});
   ground_array_.set_indices(indices_);
   for (std::size_t k = 0; k < kLooks.size(); ++k)
-    ground_[k] = ground_program(kLooks[k], settings_, textures_);
+    ground_[k] = ground_program(kLooks[k], settings_, textures());
   if (!settings_.background) sky_.emplace(has_air(surface_->info()));
 }
 
 double GlobeRenderer::height_above_ground(const glm::dvec3& position, bool wait) const {
   return clipmap::height_above_ground(settings_.clipmap, *surface_, position, settings_.max_level, wait);
-}
-
-std::size_t GlobeRenderer::load(const clipmap::Target& target, bool wait) {
-  const auto take = [&](const clipmap::StateUpdate& update) {
-    const std::size_t bytes = textures_.apply(update);
-    state_ = update.state;
-    return bytes;
-  };
-  if (wait || !state_) {
-    if (stream_) stream_.reset();
-    if (state_ && clipmap::still_holds(settings_.clipmap, *state_, target)) {
-      auto moved = std::make_shared<clipmap::ClipmapState>(*state_);
-      moved->target = target;
-      state_ = std::move(moved);
-      return 0;
-    }
-    return take(
-        clipmap::advance(settings_.clipmap, *surface_, target, state_.get(), clipmap::Stride::kWhole));
-  }
-  if (!stream_) stream_ = std::make_unique<clipmap::Stream>(settings_.clipmap, surface_);
-  std::size_t bytes = 0;
-  if (const auto update = stream_->take()) bytes = take(*update);
-  if (clipmap::still_holds(settings_.clipmap, *state_, target)) {
-    auto moved = std::make_shared<clipmap::ClipmapState>(*state_);
-    moved->target = {target.u, state_->finest_level(), target.lighting};
-    state_ = std::move(moved);
-    // Nothing is missing: make the next finer level ready, so that it is there when the camera comes down to
-    // it.
-    if (state_->finest_level() <= target.finest && target.finest < settings_.max_level) {
-      stream_->request({target.u, target.finest + 1, target.lighting}, state_);
-    }
-  } else {
-    stream_->request(target, state_);
-  }
-  return bytes;
 }
 
 void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
@@ -115,7 +83,7 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
   camera.right = glm::dvec3(0, 1, 0);
   camera.up = glm::dvec3(0, 0, 1);
   draw(camera, glm::dvec3(1, 0, 0), true, target);
-  DrawList list = make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), camera,
+  DrawList list = make_draw_list(settings_.clipmap, state(), textures(), surface_->ellipsoid(), camera,
                                  settings_.clipmap.base_level, 0.0f, true);
   std::vector<Batch> batches;
   batches.reserve(kLooks.size());
@@ -129,7 +97,7 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
 }
 
 FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool wait,
-                               const gl::Framebuffer& target) {
+                               const gl::Framebuffer& target, double upload_ms) {
   FrameStats stats;
   const double above = std::max(height_above_ground(camera.position, wait),
                                 clipmap::least_above_ground(surface_->ellipsoid()));
@@ -140,20 +108,25 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
                          finest.level,
                          {sun, settings_.show == Show::kNormals}};
   // Frames in real time keep the light they have while the sun stands still, near enough.
-  if (!wait && state_ && glm::distance(sun, state_->target.lighting.sun) < kSunMoved)
-    wanted.lighting = state_->target.lighting;
-  stats.upload_bytes = load(wanted, wait);
-  stats.complete = state_->finest_level() >= finest.level && state_->target.u == wanted.u &&
-                   std::all_of(state_->levels.begin(), state_->levels.end(),
-                               [&](const auto& level) { return level->lighting == wanted.lighting; });
-  stats.queued_jobs = stream_ ? stream_->pending() : 0;
-  stats.finest_level = std::min(finest.level, state_->finest_level());
+  if (!wait && loader_.state() && glm::distance(sun, state().target.lighting.sun) < kSunMoved)
+    wanted.lighting = state().target.lighting;
+  const auto load_begin = std::chrono::steady_clock::now();
+  stats.upload_bytes =
+      wait || !loader_.state() ? loader_.load_whole(wanted) : loader_.load_some(wanted, above, upload_ms);
+  stats.upload_ms = milliseconds_since(load_begin);
+  stats.queued_jobs = loader_.queued_jobs();
+  stats.queued_bytes = textures().queued_bytes();
+  stats.gpu_bytes = textures().bytes();
 
-  float fade = stats.finest_level == finest.level ? finest.fade : 0.0f;
-  if (!wait && stats.finest_level > shown_finest_) fade = std::max(fade, 1.0f - kLateFade);
-  if (!wait && stats.finest_level == shown_finest_) fade = std::max(fade, shown_fade_ - kLateFade);
-  shown_fade_ = fade;
-  shown_finest_ = stats.finest_level;
+  if (wait) admission_.show(finest);
+  const clipmap::FinestLevel shown = wait ? finest : admission_.next(finest, state().target.finest);
+  stats.finest_level = shown.level;
+  stats.fade = shown.fade;
+  const int levels = finest.level - settings_.clipmap.base_level + 1;
+  const int ready = std::min(clipmap::levels_ready(settings_.clipmap, state(), wanted),
+                             shown.level - settings_.clipmap.base_level + 1);
+  stats.completeness = static_cast<double>(ready) / levels;
+  stats.complete = ready == levels && shown.fade == finest.fade;
 
   const ViewBlock view = view_block(camera, *surface_, sun, near_distance(surface_->ellipsoid(), above));
   view_.upload(0, &view, sizeof(view));
@@ -177,9 +150,9 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   target.clear_depth(0.0f);
 
   const auto begin = std::chrono::steady_clock::now();
-  const DrawList list = make_draw_list(settings_.clipmap, *state_, textures_, surface_->ellipsoid(), camera,
-                                       stats.finest_level, fade, settings_.cull_patches);
-  stats.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  const DrawList list = make_draw_list(settings_.clipmap, state(), textures(), surface_->ellipsoid(), camera,
+                                       shown.level, shown.fade, settings_.cull_patches);
+  stats.cpu_ms = milliseconds_since(begin);
   stats.patches = list.patches;
   draw_ground(list, stats);
   if (sky_) sky_->draw(view);
@@ -196,7 +169,7 @@ void GlobeRenderer::draw_ground(const DrawList& list, FrameStats& stats) {
     first += batch.instances.size();
     stats.triangles += batch.instances.size() * mesh_.indices[static_cast<std::size_t>(batch.rim)].size() / 3;
   }
-  textures_.bind();
+  textures().bind();
   ground_array_.bind();
   if (settings_.wireframe) {
     draw_batches(list, glm::vec4(0.0f, 0.0f, 0.0f, 0.35f));

@@ -6,15 +6,15 @@
 #include <optional>
 
 #include "globe/clipmap/patch.h"
-#include "globe/clipmap/stream.h"
 #include "globe/gl/buffer.h"
 #include "globe/gl/framebuffer.h"
 #include "globe/gl/program.h"
 #include "globe/gl/vertex_array.h"
 #include "globe/planet/surface.h"
+#include "globe/render/admission.h"
 #include "globe/render/camera.h"
-#include "globe/render/clipmap_textures.h"
 #include "globe/render/draw_list.h"
+#include "globe/render/loader.h"
 #include "globe/render/sky.h"
 
 namespace globe::render {
@@ -30,7 +30,8 @@ struct RenderSettings {
   std::optional<glm::vec3> background;  ///< sRGB in [0, 1]; no sky then
   bool cull_faces = true;
   bool cull_patches = true;
-  int max_level = 26;  ///< finest grid level of triangles
+  int max_level = 26;      ///< finest grid level of triangles
+  bool load_ahead = true;  ///< frames that do not wait load what the camera's motion leads to
 };
 
 /// Figures of the frame last drawn.
@@ -38,10 +39,15 @@ struct FrameStats {
   std::size_t triangles = 0;
   std::size_t patches = 0;
   std::size_t upload_bytes = 0;
-  double cpu_ms = 0;  ///< choosing levels and patches: our own work, loading and the driver's left out
-  int queued_jobs = 0;
+  double upload_ms = 0;  ///< spent on it by this thread
+  double cpu_ms = 0;     ///< choosing levels and patches: our own work, loading and the driver's left out
+  int queued_jobs = 0;   ///< levels being computed and uploads that wait
+  std::size_t queued_bytes = 0;  ///< of the uploads
+  std::size_t gpu_bytes = 0;     ///< of the clipmap's textures
   int finest_level = 0;
-  bool complete = true;
+  float fade = 0;           ///< how far that level is still morphed into the one below
+  double completeness = 1;  ///< share of the levels wanted that are in place and shown
+  bool complete = true;     ///< all of them, and none that came late is still morphing in
 };
 
 /// Draws a planet's surface: hexagonal clipmaps on HTM (DESIGN section 5) and a plain sky.
@@ -50,20 +56,27 @@ class GlobeRenderer {
   /// A GL context must be current and stay so.
   GlobeRenderer(std::shared_ptr<const planet::Surface> surface, const RenderSettings& settings);
 
+  /// What a frame may take for uploads unless it is told otherwise, milliseconds.
+  static constexpr double kUploadTime = 4.0;
+
   /// Draws one frame into the framebuffer.
   ///
-  /// @param sun   unit vector toward the sun, ECEF
-  /// @param wait  true: everything the view needs is loaded first, so the picture depends on the camera
-  /// alone. False: what is
-  ///              there is drawn at once; the rest comes over the next frames.
-  FrameStats draw(const Camera& camera, const glm::dvec3& sun, bool wait, const gl::Framebuffer& target);
+  /// @param sun        unit vector toward the sun, ECEF
+  /// @param wait       true: everything the view needs is loaded first, so the picture depends on the camera
+  ///                   alone. False: what is there is drawn at once; the rest comes over the next frames.
+  /// @param upload_ms  time that a frame which does not wait spends on uploads, about; some little piece goes
+  ///                   in any case
+  FrameStats draw(const Camera& camera, const glm::dvec3& sun, bool wait, const gl::Framebuffer& target,
+                  double upload_ms = kUploadTime);
 
   /// Loads the base level and has every program compiled, so that the first frames of a flight take no longer
   /// than others.
   void warm_up(const gl::Framebuffer& target);
 
   /// True while levels are being computed in the background.
-  bool is_loading() const { return stream_ != nullptr && stream_->pending() > 0; }
+  bool is_computing() const { return loader_.is_computing(); }
+  /// Returns when none are: for tests and benchmarks, which want no race.
+  void await_computing() const { loader_.await_computing(); }
 
   /// Height of the camera above the ground that is drawn at the finest level under it, metres.
   ///
@@ -71,14 +84,13 @@ class GlobeRenderer {
   /// hand
   double height_above_ground(const glm::dvec3& position, bool wait = true) const;
 
-  std::size_t gpu_bytes() const { return textures_.bytes(); }
-  std::size_t gpu_layer_bytes() const { return textures_.layer_bytes(); }
-  int gpu_layers() const { return textures_.layers(); }
+  /// The clipmap's textures on the GPU.
+  const ClipmapTextures& textures() const { return loader_.textures(); }
+  /// What the last frame showed.
+  const clipmap::ClipmapState& state() const { return *loader_.state(); }
   const clipmap::Settings& clipmap_settings() const { return settings_.clipmap; }
 
  private:
-  /// Brings the state as far toward the target as is allowed; returns the bytes uploaded.
-  std::size_t load(const clipmap::Target& target, bool wait);
   void draw_ground(const DrawList& list, FrameStats& stats);
   void draw_batches(const DrawList& list, const glm::vec4& overlay);
 
@@ -90,11 +102,8 @@ class GlobeRenderer {
   gl::VertexArray ground_array_;
   std::array<gl::Program, kLooks.size()> ground_;  ///< by Look, in the order of kLooks
   std::optional<Sky> sky_;                         ///< none with a background
-  ClipmapTextures textures_;
-  std::shared_ptr<const clipmap::ClipmapState> state_;
-  float shown_fade_ = 0.0f;  ///< of the finest level last frame, to let late arrivals morph in
-  int shown_finest_ = 0;
-  std::unique_ptr<clipmap::Stream> stream_;  ///< made by the first frame that does not wait
+  Loader loader_;
+  Admission admission_;
 };
 
 }  // namespace globe::render

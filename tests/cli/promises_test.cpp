@@ -95,6 +95,9 @@ TEST(Program, RefusesUnknownWordsWithOneLineAndStatus2) {
   expect_one_line(run_program({"fly", "procedural", "-o", "x.mp4", "--size", "huge"}), 2, "--size");
   expect_one_line(run_program({"fly", "procedural", "-o", "x.mp4", "--positions", "double"}), 2,
                   "--positions");
+  for (const char* budget : {"-1", "nan", "1e9", "soon"})
+    expect_one_line(run_program({"fly", "procedural", "-o", "x.mp4", "--budget", budget}), 2, "--budget");
+  expect_one_line(run_program({"fly", "procedural", "-o", "x.mp4", "--memory", "3"}), 2, "--memory");
 }
 
 TEST(Program, SaysInOneLineThatThereIsNoGraphics) {
@@ -166,13 +169,34 @@ TEST_F(Pictures, StatisticsHaveTheKeysOfTheContract) {
                                                    "planet_level", "frames", "summary"}));
   ASSERT_EQ(document["frames"].size(), 4u);
   for (const json& frame : document["frames"]) {
-    EXPECT_EQ(keys(frame),
-              (std::set<std::string>{"frame", "lat", "lon", "alt_m", "above_ground_m", "frame_ms", "cpu_ms",
-                                     "gpu_ms", "triangles", "patches", "upload_bytes", "queued_jobs",
-                                     "finest_level", "complete"}));
+    EXPECT_EQ(keys(frame), (std::set<std::string>{"frame", "lat", "lon", "alt_m", "above_ground_m",
+                                                  "frame_ms", "cpu_ms", "gpu_ms", "triangles", "patches",
+                                                  "upload_bytes", "upload_ms", "queued_jobs", "queued_bytes",
+                                                  "gpu_bytes", "finest_level", "completeness", "complete"}));
     EXPECT_TRUE(frame["complete"].get<bool>());
+    EXPECT_EQ(frame["completeness"].get<double>(), 1.0);
+    EXPECT_GT(frame["gpu_bytes"].get<double>(), 0.0);
+    EXPECT_LE(frame["upload_ms"].get<double>(), frame["frame_ms"].get<double>());
   }
   EXPECT_EQ(document["width"], 160);
+}
+
+TEST_F(Pictures, FlightsInRealTimeUploadWithinWhateverBudget) {
+  for (const char* budget : {"0", "1000"}) {
+    const std::string stats = (folder_ / "s.json").string();
+    auto words = flight({"-o", "-", "--stats", stats, "--overwrite", "--budget", budget, "--memory", "64"});
+    words[5] = "20";
+    std::erase(words, "--wait");
+    ASSERT_EQ(run_program(words).status, 0);
+    const json document = json::parse(cli::text_of(stats));
+    std::size_t uploaded = 0;
+    for (const json& frame : document["frames"]) {
+      uploaded += frame["upload_bytes"].get<std::size_t>();
+      EXPECT_GT(frame["completeness"].get<double>(), 0.0);
+      EXPECT_LE(frame["completeness"].get<double>(), 1.0);
+    }
+    EXPECT_GT(uploaded, 0u) << budget;
+  }
 }
 
 TEST_F(Pictures, FlightsToStandardOutputAreY4m) {

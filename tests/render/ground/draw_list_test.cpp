@@ -49,7 +49,7 @@ void for_each_patch(const views::MeshProbe& probe, const DrawList& list, const V
       for (const auto& level : probe.state().levels) {
         for (int d = 0; d < globe::planet::kDiamonds; ++d) {
           if (level->region.level == slot.coarse.z &&
-              probe.textures().layer(level->region.level, d) == slot.torus.z)
+              probe.textures().vertex_layer(level->region.level, d) == slot.torus.z)
             visit(DrawnPatch{batch, slot, *level, d, instance});
         }
       }
@@ -91,7 +91,7 @@ TEST_F(GlTest, PatchesShowOneLevelWhereNoVertexCallsForTwo) {
     for (const float fade : {0.0f, 0.4f, 0.6f, 0.8f}) {
       const DrawList list =
           globe::render::make_draw_list(settings, probe.state(), probe.textures(), surface->ellipsoid(),
-                                        camera, probe.state().finest_level(), fade, false);
+                                        camera, probe.state().target.finest, fade, false);
       for_each_patch(probe, list, [&](const DrawnPatch& patch) {
         if (patch.data.region.level == settings.base_level || patch.batch.look.shading == Shading::kGlint)
           return;
@@ -140,7 +140,7 @@ TEST_F(GlTest, TheSunGlintsOnlyInPatchesDrawnForIt) {
     probe.load(camera.position, settings.base_level + 8, {sun, false});
     const DrawList list =
         globe::render::make_draw_list(settings, probe.state(), probe.textures(), surface->ellipsoid(), camera,
-                                      probe.state().finest_level(), 0.0f, false);
+                                      probe.state().target.finest, 0.0f, false);
     for_each_patch(probe, list, [&](const DrawnPatch& patch) {
       ++all;
       const bool for_glint = patch.batch.look.shading == Shading::kGlint;

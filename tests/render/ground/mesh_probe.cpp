@@ -56,16 +56,23 @@ void MeshProbe::load(const dvec3& position, int finest, const globe::clipmap::Li
   const Geodetic place = globe::geo::geodetic_from_ecef(surface_->ellipsoid(), position);
   const globe::clipmap::Target target{globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg), finest,
                                       lighting};
-  const auto update =
+  auto update =
       globe::clipmap::advance(settings_, *surface_, target, state_.get(), globe::clipmap::Stride::kWhole);
-  textures_.apply(update);
   state_ = update.state;
+  textures_.apply(std::move(update));
 }
 
 std::vector<ProbeVertex> MeshProbe::triangles(const Camera& camera, float fade, Space space,
                                               bool all_as_rim) const {
-  const DrawList list = globe::render::make_draw_list(settings_, *state_, textures_, surface_->ellipsoid(),
-                                                      camera, state_->finest_level(), fade, false);
+  return triangles(*state_, textures_, camera, state_->target.finest, fade, space, all_as_rim);
+}
+
+std::vector<ProbeVertex> MeshProbe::triangles(const globe::clipmap::ClipmapState& state,
+                                              const globe::render::ClipmapTextures& textures,
+                                              const Camera& camera, int finest, float fade, Space space,
+                                              bool all_as_rim) const {
+  const DrawList list = globe::render::make_draw_list(settings_, state, textures, surface_->ellipsoid(),
+                                                      camera, finest, fade, false);
   ViewBlock view;
   if (space == Space::kClip) {
     view.clip_from_relative = glm::mat4(globe::render::clip_from_relative(camera, 0.05));
@@ -75,15 +82,15 @@ std::vector<ProbeVertex> MeshProbe::triangles(const Camera& camera, float fade, 
   Buffer slots(globe::render::kMaxSlots * sizeof(globe::render::SlotBlock));
   slots.upload(0, list.slots.data(), list.slots.size() * sizeof(globe::render::SlotBlock));
   slots.bind_base(GL_UNIFORM_BUFFER, 1);
-  textures_.bind();
+  textures.bind();
   nowhere_.bind();
   glEnable(GL_RASTERIZER_DISCARD);
   const globe::clipmap::MorphBand band = globe::clipmap::morph_band(settings_);
   std::map<std::array<int, 5>, std::vector<ProbeVertex>> patches;  // by level, diamond, corner, half
   std::vector<std::array<int, 2>> slot_names(list.slots.size());   // level and diamond
-  for (const auto& level : state_->levels) {
+  for (const auto& level : state.levels) {
     for (int d = 0; d < globe::planet::kDiamonds; ++d) {
-      const int layer = textures_.layer(level->region.level, d);
+      const int layer = textures.vertex_layer(level->region.level, d);
       for (std::size_t k = 0; k < list.slots.size(); ++k) {
         if (layer >= 0 && list.slots[k].torus.z == layer) slot_names[k] = {level->region.level, d};
       }
@@ -117,7 +124,7 @@ std::vector<ProbeVertex> MeshProbe::triangles(const Camera& camera, float fade, 
       const glm::ivec4& instance = batch.instances[k / order.size()];
       const auto [a, b] = mesh_.vertices[order[k % order.size()]];
       const auto [level, d] = slot_names[static_cast<std::size_t>(instance.w)];
-      const auto& rect = state_->levels[static_cast<std::size_t>(level - settings_.base_level)]
+      const auto& rect = state.levels[static_cast<std::size_t>(level - settings_.base_level)]
                              ->vertices[static_cast<std::size_t>(d)];
       patches[{level, d, instance.x, instance.y, instance.z}].push_back(
           {positions[k],

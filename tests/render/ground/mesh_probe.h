@@ -43,6 +43,11 @@ class MeshProbe {
   std::vector<ProbeVertex> triangles(const Camera& camera, float fade, Space space,
                                      bool all_as_rim = false) const;
 
+  /// The same of another's state and textures, of the levels up to `finest`.
+  std::vector<ProbeVertex> triangles(const globe::clipmap::ClipmapState& state,
+                                     const globe::render::ClipmapTextures& textures, const Camera& camera,
+                                     int finest, float fade, Space space, bool all_as_rim = false) const;
+
   const globe::clipmap::ClipmapState& state() const { return *state_; }
   const globe::clipmap::Settings& settings() const { return settings_; }
   const globe::render::ClipmapTextures& textures() const { return textures_; }

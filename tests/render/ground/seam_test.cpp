@@ -118,9 +118,9 @@ TEST_F(GlTest, H8DiamondsHoldTheSameOfTheNodesTheyShareAtEveryLevel) {
       std::map<int, Texels<glm::vec4>> positions;
       std::map<int, Texels<glm::u8vec4>> lit;
       for (int d = 0; d < kDiamonds; ++d) {
-        if (textures.layer(l, d) < 0) continue;
-        positions.emplace(d, Texels<glm::vec4>(textures.positions(), textures.layer(l, d)));
-        lit.emplace(d, Texels<glm::u8vec4>(textures.lit(), textures.layer(l, d)));
+        if (textures.vertex_layer(l, d) < 0) continue;
+        positions.emplace(d, Texels<glm::vec4>(textures.positions(), textures.vertex_layer(l, d)));
+        lit.emplace(d, Texels<glm::u8vec4>(textures.lit(), textures.shading_layer(l, d)));
       }
       compare_borders(
           l, level->vertices,

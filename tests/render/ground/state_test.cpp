@@ -1,14 +1,12 @@
-// H24: the same camera, the same bytes. H18: however the windows were filled. Frames that do not wait;
-// memory.
+// H24: the same camera, the same bytes. H18: however the windows were filled. Memory.
 
 #include <tbb/global_control.h>
 
-#include <chrono>
 #include <random>
-#include <thread>
 
 #include "tests/hard/directions.h"
 #include "tests/hard/table.h"
+#include "tests/render/ground/resident.h"
 #include "tests/render/ground/views.h"
 
 namespace {
@@ -108,61 +106,6 @@ TEST_F(GlTest, H12PicturesAreTheSameWithoutCulling) {
   }
 }
 
-/// Texels of a state's resident nodes, of all layers, in the order of the nodes.
-template <class T>
-std::vector<T> resident(const globe::gl::Texture& texture, const globe::clipmap::NodeRect& rect, int layer) {
-  const auto all = texture.read<T>({0, 0, texture.width(), texture.height(), layer});
-  std::vector<T> texels;
-  const auto wrapped = [](int x, int n) { return (x % n + n) % n; };
-  for (int j = rect.j0; j <= rect.j1; ++j) {
-    for (int i = rect.i0; i <= rect.i1; ++i) {
-      texels.push_back(
-          all[static_cast<std::size_t>(wrapped(j, texture.height())) * std::size_t(texture.width()) +
-              static_cast<std::size_t>(wrapped(i, texture.width()))]);
-    }
-  }
-  return texels;
-}
-
-globe::clipmap::NodeRect knots_of(const globe::clipmap::NodeRect& nodes, int step) {
-  return {nodes.i0 / step, nodes.i1 / step, nodes.j0 / step, nodes.j1 / step};
-}
-
-std::size_t differing_texels(const Settings& settings, const globe::clipmap::ClipmapState& state,
-                             const ClipmapTextures& a, const ClipmapTextures& b, std::size_t& looked_at) {
-  std::size_t count = 0;
-  const auto compare = [&](const auto& x, const auto& y) {
-    looked_at += x.size();
-    for (std::size_t k = 0; k < x.size(); ++k) count += x[k] == y[k] ? 0 : 1;
-  };
-  for (const auto& level : state.levels) {
-    for (int d = 0; d < globe::planet::kDiamonds; ++d) {
-      const auto k = static_cast<std::size_t>(d);
-      if (level->vertices[k].empty()) continue;
-      const int la = a.layer(level->region.level, d), lb = b.layer(level->region.level, d);
-      if (globe::clipmap::is_interpolated(settings.positions)) {
-        compare(resident<float>(a.positions(), level->vertices[k], la),
-                resident<float>(b.positions(), level->vertices[k], lb));
-        for (const int kind : {0, 1}) {
-          const auto knots = knots_of(level->vertices[k], settings.knot_step());
-          compare(resident<glm::vec4>(a.coarse(), knots, 2 * la + kind),
-                  resident<glm::vec4>(b.coarse(), knots, 2 * lb + kind));
-        }
-      } else {
-        compare(resident<glm::vec4>(a.positions(), level->vertices[k], la),
-                resident<glm::vec4>(b.positions(), level->vertices[k], lb));
-        compare(resident<glm::vec4>(a.coarse(), level->vertices[k], la),
-                resident<glm::vec4>(b.coarse(), level->vertices[k], lb));
-      }
-      compare(resident<glm::u8vec4>(a.lit(), level->shading[k], la),
-              resident<glm::u8vec4>(b.lit(), level->shading[k], lb));
-      compare(resident<std::uint8_t>(a.water(), level->shading[k], la),
-              resident<std::uint8_t>(b.water(), level->shading[k], lb));
-    }
-  }
-  return count;
-}
-
 struct Walked {
   std::size_t different_texels = 0, texels = 0, moves = 0;
 };
@@ -188,19 +131,23 @@ Walked walk(const Settings& settings, std::size_t stride) {
           u, settings.base_level + 3 + static_cast<int>(random() % 14), {sun, false}};
       auto update =
           globe::clipmap::advance(settings, *surface, target, state.get(), globe::clipmap::Stride::kWhole);
-      walked.apply(update);
       state = update.state;
+      walked.apply(std::move(update));
       ClipmapTextures fresh(settings);
-      const auto refill =
+      auto refill =
           globe::clipmap::advance(settings, *surface, target, nullptr, globe::clipmap::Stride::kWhole);
-      fresh.apply(refill);
-      for (std::size_t l = 0; l < state->levels.size(); ++l) {
-        EXPECT_EQ(state->levels[l]->anchor, refill.state->levels[l]->anchor);
-        EXPECT_EQ(state->levels[l]->vertices, refill.state->levels[l]->vertices);
-        EXPECT_EQ(state->levels[l]->shading, refill.state->levels[l]->shading);
+      const auto refilled = refill.state;
+      fresh.apply(std::move(refill));
+      for (std::size_t l = 0; l < refilled->levels.size(); ++l) {
+        EXPECT_EQ(state->levels[l]->anchor, refilled->levels[l]->anchor);
+        EXPECT_EQ(state->levels[l]->vertices, refilled->levels[l]->vertices);
+        EXPECT_EQ(state->levels[l]->shading, refilled->levels[l]->shading);
       }
-      if (k % 4 == 3 || k + 1 == 8)
-        sum.different_texels += differing_texels(settings, *state, walked, fresh, sum.texels);
+      if (k % 4 == 3 || k + 1 == 8) {
+        const views::Resident seen = views::resident(settings, *refilled, walked);
+        sum.different_texels += seen.differing(views::resident(settings, *refilled, fresh));
+        sum.texels += seen.size();
+      }
     }
   }
   return sum;
@@ -220,42 +167,6 @@ TEST_F(GlTest, H18WindowsAfterAnyWalkHoldWhatARefillWould) {
   }
 }
 
-TEST_F(GlTest, AFrameThatDoesNotWaitSettlesToThePictureOfOneThatDoes) {
-  const auto surface = views::builtin_planet();
-  const Framebuffer picture(320, 180);
-  GlobeRenderer streaming(surface, full_settings());
-  const auto cameras = tour(streaming, 6);
-  std::size_t frames_behind = 0, different_bytes = 0;
-  dvec3 sun = glm::normalize(dvec3(1, 2, 0.5));
-  bool seen_behind = false;
-  streaming.draw(cameras.front(), sun, false, picture);
-  for (std::size_t k = 0; k < 2 * cameras.size(); ++k) {
-    const Camera& camera = cameras[k / 2];
-    if (k % 2 == 1) sun = glm::normalize(sun + dvec3(0.1, -0.2, 0.05));  // the camera stays, the sun moves on
-    FrameStats stats = streaming.draw(camera, sun, false, picture);
-    seen_behind = seen_behind || !stats.complete;
-    int frames = 0;
-    for (; !stats.complete && frames < 5000; ++frames) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-      stats = streaming.draw(camera, sun, false, picture);
-      ++frames_behind;
-    }
-    EXPECT_TRUE(stats.complete);
-    for (int fading = 0; fading < 12; ++fading) streaming.draw(camera, sun, false, picture);
-    const Bytes settled = picture.read_rgba8();
-    GlobeRenderer waiting(surface, full_settings());
-    waiting.draw(camera, sun, true, picture);
-    different_bytes += different(settled, picture.read_rgba8());
-  }
-  hard::report("loading",
-               "bytes that differ once frames without --wait have settled, " +
-                   std::to_string(cameras.size()) + " cameras, " + std::to_string(frames_behind) +
-                   " frames drawn while loading",
-               "0", std::to_string(different_bytes));
-  EXPECT_TRUE(seen_behind);
-  EXPECT_EQ(different_bytes, 0u);
-}
-
 std::size_t layer_formula(const Settings& settings) {
   const auto w = static_cast<std::size_t>(settings.window());
   const std::size_t shading = w << settings.shading_levels;
@@ -272,13 +183,16 @@ TEST_F(GlTest, ClipmapMemoryIsWhatItsFormulaSays) {
   std::size_t most = 0;
   for (const Camera& camera : tour(renderer, 10)) {
     renderer.draw(camera, dvec3(1, 0, 0), true, picture);
-    EXPECT_EQ(renderer.gpu_layer_bytes(), layer);
-    EXPECT_EQ(renderer.gpu_bytes(), layer * static_cast<std::size_t>(renderer.gpu_layers()));
-    most = std::max(most, renderer.gpu_bytes());
+    const ClipmapTextures& textures = renderer.textures();
+    EXPECT_EQ(textures.layer_bytes(), layer);
+    EXPECT_EQ(textures.vertex_layers(), textures.shading_layers());
+    EXPECT_EQ(textures.bytes(), layer * static_cast<std::size_t>(textures.vertex_layers()));
+    most = std::max(most, textures.bytes());
   }
-  hard::report("memory",
-               "bytes of the clipmap's textures in a flight, detail 16, against layers * (32 w^2 + 5 (4w)^2)",
-               "equal", std::to_string(most) + " B in " + std::to_string(renderer.gpu_layers()) + " layers");
+  hard::report(
+      "memory",
+      "bytes of the clipmap's textures in a flight, detail 16, against layers * (32 w^2 + 5 (4w)^2)", "equal",
+      std::to_string(most) + " B in " + std::to_string(renderer.textures().vertex_layers()) + " layers");
   for (const auto positions : {globe::clipmap::Positions::kExact, globe::clipmap::Positions::kQuadratic,
                                globe::clipmap::Positions::kChord, globe::clipmap::Positions::kFloat32}) {
     Settings settings = Settings::for_detail(64);

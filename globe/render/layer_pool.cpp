@@ -1,0 +1,84 @@
+#include "globe/render/layer_pool.h"
+
+#include <cassert>
+#include <utility>
+
+namespace globe::render {
+namespace {
+
+constexpr int kGrowth = 4;  ///< layers: arrays grow by multiples of it
+
+gl::TexelBox box_of(const clipmap::NodeRect& rect, int layer) {
+  return {rect.i0, rect.j0, rect.width(), rect.height(), layer};
+}
+
+std::size_t bytes_of(const std::vector<gl::Texture>& textures) {
+  std::size_t sum = 0;
+  for (const gl::Texture& texture : textures) sum += texture.bytes();
+  return sum;
+}
+
+}  // namespace
+
+LayerPool::LayerPool(std::vector<Plane> planes, GLenum filter, int layers)
+    : planes_(std::move(planes)), filter_(filter), layers_(layers), current_(make(layers)) {
+  for (int layer = layers - 1; layer >= 0; --layer) free_.push_back(layer);
+}
+
+std::vector<gl::Texture> LayerPool::make(int layers) const {
+  std::vector<gl::Texture> textures;
+  for (const Plane& plane : planes_) {
+    textures.push_back(gl::Texture::array(plane.format, plane.side, plane.side, plane.each * layers));
+    textures.back().set_filter(filter_, filter_);
+    textures.back().set_wrap(GL_REPEAT);
+  }
+  return textures;
+}
+
+int LayerPool::acquire() {
+  assert(!free_.empty());
+  const int layer = free_.back();
+  free_.pop_back();
+  return layer;
+}
+
+bool LayerPool::reserve(int count) {
+  const int missing = count - free_layers();
+  if (missing <= 0) return false;
+  assert(!is_growing());
+  const int after = layers_ + (missing + kGrowth - 1) / kGrowth * kGrowth;
+  grown_ = make(after);
+  for (int layer = after - 1; layer >= layers_; --layer) free_.insert(free_.begin(), layer);
+  return true;
+}
+
+void LayerPool::finish_growth() {
+  if (!is_growing()) return;
+  current_ = std::exchange(grown_, {});
+  layers_ = current_.front().layers() / planes_.front().each;
+}
+
+void LayerPool::abandon_growth() {
+  grown_.clear();
+  std::erase_if(free_, [&](int layer) { return layer >= layers_; });
+}
+
+void LayerPool::upload(std::size_t plane, int layer, int which, const clipmap::NodeRect& nodes,
+                       const void* texels, int row_length) {
+  written()[plane].upload_wrapped(box_of(nodes, planes_[plane].each * layer + which), texels, row_length);
+}
+
+void LayerPool::copy_from_current(std::size_t plane, int layer, int from_layer,
+                                  const clipmap::NodeRect& nodes) {
+  const int each = planes_[plane].each;
+  for (int which = 0; which < each; ++which) {
+    written()[plane].copy_wrapped(current_[plane], each * from_layer + which,
+                                  box_of(nodes, each * layer + which));
+  }
+}
+
+std::size_t LayerPool::bytes() const { return bytes_of(current_) + bytes_of(grown_); }
+
+std::size_t LayerPool::layer_bytes() const { return bytes_of(current_) / static_cast<std::size_t>(layers_); }
+
+}  // namespace globe::render
