@@ -95,6 +95,8 @@ TEST(Program, RefusesUnknownWordsWithOneLineAndStatus2) {
   expect_one_line(run_program({"fly", "procedural", "-o", "x.mp4", "--size", "huge"}), 2, "--size");
   expect_one_line(run_program({"fly", "procedural", "-o", "x.mp4", "--positions", "double"}), 2,
                   "--positions");
+  expect_one_line(run_program({"shot", "procedural", "-o", "x.png", "--at", "0 0", "--window", "round"}), 2,
+                  "--window");
 }
 
 TEST(Program, SaysInOneLineThatThereIsNoGraphics) {
