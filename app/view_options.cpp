@@ -70,6 +70,11 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       .add_option("--positions", options.positions,
                   "places of vertices: exact; or, to see what accuracy costs, quadratic, chord or float32")
       ->capture_default_str();
+  command
+      .add_option(
+          "--window", options.window,
+          "how vertices lie in GPU memory: plain squares; or hexagon, a fifth less for the same picture")
+      ->capture_default_str();
   command.add_flag("--overwrite", options.overwrite, "replace existing output");
   command.add_flag("--quiet", options.quiet, "warnings and errors only");
   command.add_option("--device", options.device, "auto, software, or the number of an EGL device")
@@ -116,6 +121,14 @@ globe::render::RenderSettings render_settings(const ViewOptions& options) {
                      "give exact, quadratic, chord or float32");
   }
   settings.clipmap.positions = *positions;
+  const auto windows = globe::clipmap::windows_by_name(options.window);
+  if (!windows) throw UsageError("--window " + options.window, "no such window", "give plain or hexagon");
+  if (*windows == globe::clipmap::Windows::kHexagon && globe::clipmap::is_interpolated(*positions)) {
+    throw UsageError("--window hexagon",
+                     "with --positions " + options.positions + " there are no positions to store",
+                     "leave one of the two out");
+  }
+  settings.clipmap.windows = *windows;
   settings.wireframe = options.wireframe;
   if (options.show == "levels") settings.show = globe::render::Show::kLevels;
   if (options.show == "patches") settings.show = globe::render::Show::kPatches;

@@ -32,6 +32,7 @@ struct ViewOptions : CameraOptions {
   bool wireframe = false;
   std::string show;
   std::string positions = "exact";
+  std::string window = "plain";
   bool overwrite = false;
   bool quiet = false;
   std::string device = "auto";

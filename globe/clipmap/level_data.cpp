@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "globe/clipmap/footprint.h"
 #include "globe/clipmap/patch.h"
 #include "globe/clipmap/shading_nodes.h"
 
@@ -90,6 +91,56 @@ double lowest_vertex(const LevelData& data) {
   return static_cast<double>(lowest);
 }
 
+/// Values of a rectangle of nodes copied from those of another.
+void copy_nodes(const NodeRect& nodes, const NodeRect& from_nodes, const std::vector<glm::vec4>& from,
+                const NodeRect& to_nodes, std::vector<glm::vec4>& to) {
+  for (int j = nodes.j0; j <= nodes.j1; ++j) {
+    const auto first = from.begin() + static_cast<std::ptrdiff_t>(at(from_nodes, nodes.i0, j));
+    std::copy(first, first + nodes.width(),
+              to.begin() + static_cast<std::ptrdiff_t>(at(to_nodes, nodes.i0, j)));
+  }
+}
+
+VertexBlock cut_out(const LevelData& data, int d, const NodeRect& nodes) {
+  const auto k = static_cast<std::size_t>(d);
+  const auto count = static_cast<std::size_t>(nodes.width()) * static_cast<std::size_t>(nodes.height());
+  VertexBlock block{d, nodes, std::vector<glm::vec4>(count), std::vector<glm::vec4>(count), {}, {}};
+  copy_nodes(nodes, data.vertices[k], data.positions[k], nodes, block.position);
+  copy_nodes(nodes, data.vertices[k], data.coarse[k], nodes, block.coarse);
+  return block;
+}
+
+/// Vertices of a level's share of a diamond: those that `before` (null: nothing) holds as they are, the rest
+/// made. What its textures lack goes to `uploads`.
+void fill_vertices(const Settings& settings, const Surface& surface, int level, int d,
+                   const LevelData* before, LevelData& data, std::vector<VertexBlock>& uploads) {
+  const auto k = static_cast<std::size_t>(d);
+  const NodeRect& rect = data.vertices[k];
+  const NodeRect held = before != nullptr ? before->vertices[k] : NodeRect{};
+  const NodeRect common = held.empty() ? NodeRect{} : intersect(rect, held);
+  const bool in_strips = settings.windows == Windows::kHexagon;
+  const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
+  data.positions[k].resize(count);
+  if (in_strips) data.coarse[k].resize(count);
+  if (!common.empty()) {
+    copy_nodes(common, held, before->positions[k], rect, data.positions[k]);
+    if (in_strips) copy_nodes(common, held, before->coarse[k], rect, data.coarse[k]);
+  }
+  for (const NodeRect& part : difference(rect, held)) {
+    VertexBlock block = make_vertex_block(settings, surface, level, d, part, data.anchor);
+    copy_nodes(part, part, block.position, rect, data.positions[k]);
+    if (in_strips)
+      copy_nodes(part, part, block.coarse, rect, data.coarse[k]);
+    else
+      uploads.push_back(std::move(block));
+  }
+  if (!in_strips) return;
+  // Strips grow where the hexagon's slanted sides move, inside the rectangle too.
+  for (const NodeRect& piece :
+       difference(data.footprint[k], before != nullptr ? before->footprint[k] : std::vector<NodeRect>{}))
+    uploads.push_back(cut_out(data, d, piece));
+}
+
 }  // namespace
 
 std::size_t LevelUpdate::upload_bytes() const {
@@ -114,21 +165,6 @@ dvec3 level_anchor(const Settings& settings, const Surface& surface, const Regio
                                surface.drawn_height(surface.height(node)));
 }
 
-std::vector<NodeRect> difference(const NodeRect& wanted, const NodeRect& held) {
-  if (wanted.empty()) return {};
-  const NodeRect common = held.empty() ? NodeRect{} : intersect(wanted, held);
-  if (common.empty()) return {wanted};
-  std::vector<NodeRect> parts;
-  const auto add = [&](const NodeRect& part) {
-    if (!part.empty()) parts.push_back(part);
-  };
-  add({wanted.i0, wanted.i1, wanted.j0, common.j0 - 1});
-  add({wanted.i0, wanted.i1, common.j1 + 1, wanted.j1});
-  add({wanted.i0, common.i0 - 1, common.j0, common.j1});
-  add({common.i1 + 1, wanted.i1, common.j0, common.j1});
-  return parts;
-}
-
 LevelUpdate update_level(const Settings& settings, const Surface& surface, Region region,
                          const Lighting& lighting, const LevelData* before) {
   auto data = std::make_shared<LevelData>();
@@ -144,26 +180,8 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
     const auto k = static_cast<std::size_t>(d);
     const NodeRect& rect = data->vertices[k];
     if (rect.empty()) continue;
-    data->positions[k].resize(static_cast<std::size_t>(rect.width()) *
-                              static_cast<std::size_t>(rect.height()));
-    const NodeRect held = same_anchor ? before->vertices[k] : NodeRect{};
-    if (!held.empty()) {
-      const NodeRect common = intersect(rect, held);
-      for (int j = common.j0; j <= common.j1; ++j) {
-        for (int i = common.i0; i <= common.i1; ++i) {
-          data->positions[k][at(rect, i, j)] = before->positions[k][at(held, i, j)];
-        }
-      }
-    }
-    for (const NodeRect& part : difference(rect, held)) {
-      VertexBlock block = make_vertex_block(settings, surface, level, d, part, data->anchor);
-      for (int j = part.j0; j <= part.j1; ++j) {
-        for (int i = part.i0; i <= part.i1; ++i) {
-          data->positions[k][at(rect, i, j)] = block.position[at(part, i, j)];
-        }
-      }
-      update.vertex_blocks.push_back(std::move(block));
-    }
+    data->footprint[k] = footprint(settings, region, d);
+    fill_vertices(settings, surface, level, d, same_anchor ? before : nullptr, *data, update.vertex_blocks);
     // One guard node all round: bilinear look-ups at the border of the region read it, with weight zero.
     data->shading[k] = {std::max(rect.i0 * up - 1, 0), std::min(rect.i1 * up + 1, shading_n),
                         std::max(rect.j0 * up - 1, 0), std::min(rect.j1 * up + 1, shading_n)};

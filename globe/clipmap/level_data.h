@@ -46,6 +46,10 @@ struct LevelData {
   std::array<NodeRect, planet::kDiamonds> vertices;  ///< resident nodes of each diamond
   std::array<NodeRect, planet::kDiamonds> shading;   ///< resident nodes of each diamond at the shading level
   std::array<std::vector<glm::vec4>, planet::kDiamonds> positions;  ///< of `vertices`, as drawn
+  std::array<std::vector<glm::vec4>, planet::kDiamonds>
+      coarse;  ///< of `vertices`: where they go at α = 1; only with hexagons, which upload them piece by
+               ///< piece
+  std::array<std::vector<NodeRect>, planet::kDiamonds> footprint;  ///< of `vertices`, what textures hold
   std::array<std::vector<GroundPart>, planet::kDiamonds>
       ground;                       ///< of `shading`, to be lit when the sun moves
   Lighting lighting;                ///< that the uploaded shading was lit with
@@ -72,8 +76,5 @@ dvec3 level_anchor(const Settings& settings, const planet::Surface& surface, con
 /// the anchor or the light changed. Safe to call from any thread.
 LevelUpdate update_level(const Settings& settings, const planet::Surface& surface, Region region,
                          const Lighting& lighting, const LevelData* before);
-
-/// Parts of `wanted` outside `held`: at most four rectangles without overlap.
-std::vector<NodeRect> difference(const NodeRect& wanted, const NodeRect& held);
 
 }  // namespace globe::clipmap

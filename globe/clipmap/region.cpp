@@ -55,10 +55,6 @@ std::array<LatticeTrixel, 3> across(const LatticeTrixel& t, int n) {
           j + 1 < n ? LatticeTrixel{d, i, j + 1, 0} : LatticeTrixel{wrap_diamond(d + 1), n - 1, i, 1}};
 }
 
-NodeRect intersect(const NodeRect& a, const NodeRect& b) {
-  return {std::max(a.i0, b.i0), std::min(a.i1, b.i1), std::max(a.j0, b.j0), std::min(a.j1, b.j1)};
-}
-
 bool Region::holds(const LatticeTrixel& unit) const {
   return std::binary_search(units.begin(), units.end(), unit);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "globe/clipmap/nadir.h"
+#include "globe/clipmap/node_rect.h"
 #include "globe/clipmap/settings.h"
 
 namespace globe::clipmap {
@@ -32,20 +33,6 @@ LatticeTrixel coarser(const LatticeTrixel& t);
 std::array<LatticeTrixel, 4> finer(const LatticeTrixel& t);
 /// The trixels across the three edges of t: opposite to corner 0, 1, 2. The lattice has n units a side.
 std::array<LatticeTrixel, 3> across(const LatticeTrixel& t, int n);
-
-/// Inclusive range of nodes of one diamond.
-struct NodeRect {
-  int i0 = 0, i1 = -1, j0 = 0, j1 = -1;
-
-  bool empty() const { return i1 < i0 || j1 < j0; }
-  int width() const { return i1 - i0 + 1; }
-  int height() const { return j1 - j0 + 1; }
-  bool holds(int i, int j) const { return i >= i0 && i <= i1 && j >= j0 && j <= j1; }
-  friend bool operator==(const NodeRect&, const NodeRect&) = default;
-};
-
-/// What two rectangles have in common; empty when nothing.
-NodeRect intersect(const NodeRect& a, const NodeRect& b);
 
 /// Region A_l: the trixels of 2m cells whose three corners lie within s of the level's centre.
 struct Region {

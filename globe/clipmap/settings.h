@@ -1,6 +1,7 @@
 #pragma once
 
 #include "globe/clipmap/positions.h"
+#include "globe/clipmap/torus.h"
 
 namespace globe::clipmap {
 
@@ -11,6 +12,7 @@ struct Settings {
   int base_level = 6;      ///< l0, the largest level with 2^l0 <= s: covers the whole sphere, always resident
   int shading_levels = 2;  ///< slopes and colours are this many levels finer than the triangles they cover
   Positions positions = Positions::kExact;
+  Windows windows = Windows::kPlain;  ///< kHexagon only where positions are not interpolated
 
   /// Settings for a hexagon of at least `detail` cells (16 .. 1024), rounded up to a multiple of 2m.
   /// Throws UsageError outside that range.
@@ -23,6 +25,13 @@ struct Settings {
   }
   /// Nodes a side of a level's torus: one step ahead, one guard node, and whole steps between knots.
   int window() const { return (2 * s + 2 * m + 2 + knot_step()) / knot_step() * knot_step(); }
+  /// Rows of the strips that a region's hexagon is stored in.
+  int strip_rows() const { return m / 2; }
+  /// How vertices lie in their textures. A hexagon of side s, one step of m on either side ahead, and what
+  /// strips have too much.
+  Torus vertex_torus() const {
+    return windows == Windows::kHexagon ? Torus::hexagon(s + m + strip_rows() - 1) : Torus::square(window());
+  }
   /// The base level has a whole sphere's room in its torus: it is shaded one level finer still.
   int shading_levels_at(int level) const { return shading_levels + (level == base_level ? 1 : 0); }
   int shading_window() const { return window() << shading_levels; }

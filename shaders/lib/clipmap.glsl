@@ -23,3 +23,13 @@ ivec2 torus_texel(ivec2 node, ivec2 origin, int size) {
   ivec2 texel = node + origin;
   return ivec2(texel.x >= size ? texel.x - size : texel.x, texel.y >= size ? texel.y - size : texel.y);
 }
+
+// The same where wraps are laid like bricks (globe/clipmap/torus.h); `brick`: width, height and shift of the torus. A window is
+// lower than two of them, and narrower than one.
+ivec2 brick_texel(ivec2 node, ivec2 origin, ivec3 brick) {
+  ivec2 texel = node + origin;
+  int wraps = (texel.y >= brick.y ? 1 : 0) + (texel.y >= 2 * brick.y ? 1 : 0);
+  texel = ivec2(texel.x - wraps * brick.z, texel.y - wraps * brick.y);
+  int aside = texel.x < 0 ? brick.x : (texel.x >= brick.x ? -brick.x : 0);
+  return ivec2(texel.x + aside, texel.y);
+}

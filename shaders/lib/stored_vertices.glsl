@@ -2,7 +2,13 @@
 layout(binding = 0) uniform sampler2DArray positions;
 layout(binding = 1) uniform sampler2DArray coarse_positions;
 
-ivec3 vertex_texel(ivec2 node, Slot slot) { return ivec3(torus_texel(node, slot.torus.xy, window.x), slot.torus.z); }
+ivec3 vertex_texel(ivec2 node, Slot slot) {
+#ifdef BRICK
+  return ivec3(brick_texel(node, slot.torus.xy, BRICK), slot.torus.z);
+#else
+  return ivec3(torus_texel(node, slot.torus.xy, window.x), slot.torus.z);
+#endif
+}
 
 // Vertex (a, b) of the patch: metres from the level's anchor, and height.
 vec4 fine_vertex(ivec2 ab, Slot slot) {

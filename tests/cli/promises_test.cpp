@@ -98,6 +98,8 @@ TEST(Program, RefusesUnknownWordsWithOneLineAndStatus2) {
   for (const char* budget : {"-1", "nan", "1e9", "soon"})
     expect_one_line(run_program({"fly", "procedural", "-o", "x.mp4", "--budget", budget}), 2, "--budget");
   expect_one_line(run_program({"fly", "procedural", "-o", "x.mp4", "--memory", "3"}), 2, "--memory");
+  expect_one_line(run_program({"shot", "procedural", "-o", "x.png", "--at", "0 0", "--window", "round"}), 2,
+                  "--window");
 }
 
 TEST(Program, SaysInOneLineThatThereIsNoGraphics) {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "globe/clipmap/morph.h"
+#include "globe/clipmap/torus.h"
 #include "globe/gl/buffer.h"
 #include "tests/hard/table.h"
 #include "tests/render/gl_fixture.h"
@@ -96,6 +97,22 @@ TEST(ShaderLibrary, TorusTexelsWrapOnceInBothDirections) {
         ASSERT_EQ(shader::torus_texel(glm::ivec2(node, 0), glm::ivec2(origin, origin), size),
                   glm::ivec2((node + origin) % size, origin));
       }
+    }
+  }
+}
+
+TEST(ShaderLibrary, BrickTexelsAreThoseOfTheTorus) {
+  std::mt19937 random(4);
+  for (const int side : {17, 75}) {
+    const auto torus = globe::clipmap::Torus::hexagon(side);
+    const glm::ivec3 brick(torus.width, torus.height, torus.shift);
+    for (int k = 0; k < 200000; ++k) {
+      const glm::ivec2 first{static_cast<int>(random() % 100000) - 50000,
+                             static_cast<int>(random() % 100000) - 50000};
+      const glm::ivec2 node{static_cast<int>(random() % static_cast<unsigned>(2 * side + 1)),
+                            static_cast<int>(random() % static_cast<unsigned>(2 * side + 1))};
+      ASSERT_EQ(shader::brick_texel(node, torus.texel(first.x, first.y), brick),
+                torus.texel(first.x + node.x, first.y + node.y));
     }
   }
 }

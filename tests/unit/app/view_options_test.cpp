@@ -71,5 +71,21 @@ TEST(RenderSettings, PositionsAreOneOfFourWords) {
   }
 }
 
+TEST(RenderSettings, WindowsAreOneOfTwoWordsAndHexagonsHoldPositions) {
+  ViewOptions options;
+  EXPECT_EQ(render_settings(options).clipmap.windows, globe::clipmap::Windows::kPlain);
+  options.window = "hexagon";
+  EXPECT_EQ(render_settings(options).clipmap.windows, globe::clipmap::Windows::kHexagon);
+  options.positions = "float32";
+  EXPECT_NO_THROW(render_settings(options));
+  options.positions = "quadratic";
+  EXPECT_THROW(render_settings(options), globe::UsageError);
+  options.positions = "exact";
+  for (const char* text : {"", "Plain", "square"}) {
+    options.window = text;
+    EXPECT_THROW(render_settings(options), globe::UsageError) << text;
+  }
+}
+
 }  // namespace
 }  // namespace app
