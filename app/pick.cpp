@@ -65,7 +65,7 @@ class Picker {
   Picker(const std::shared_ptr<const globe::planet::Surface>& surface, const PickOptions& options,
          const Size& size, const Look& look)
       : ellipsoid_(surface->ellipsoid()), size_(size) {
-    const auto settings = globe::clipmap::Settings::for_detail(options.camera.detail);
+    const auto settings = clipmap_settings(options.camera);
     const int max_level = render::RenderSettings{}.max_level;
     const auto above = [&](const glm::dvec3& position) {
       return globe::clipmap::height_above_ground(settings, *surface, position, max_level, true);
@@ -135,7 +135,7 @@ int run(const PickOptions& options) {
   const Size size = parse_size(options.camera.size);
   const Look look = options.camera.look.empty() ? Look{0.0, -90.0} : parse_look(options.camera.look);
   for (const std::string& pixel : options.pixels) parse_pixel(pixel, size);
-  const auto surface = open_planet(options.camera.planet);
+  const auto surface = open_planet(options.camera);
   warn_of_unknown_datum(*surface, options.camera.planet);
   sun_for(options.camera, *surface, 0.0);  // refuses a --time that shot would refuse
   const Picker picker(surface, options, size, look);

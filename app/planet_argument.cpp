@@ -11,7 +11,6 @@ namespace app {
 namespace {
 
 constexpr std::uint64_t kDefaultSeed = 1;
-constexpr std::size_t kDatasetCache = std::size_t{256} << 20;
 
 }  // namespace
 
@@ -36,12 +35,12 @@ std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& pla
 
 std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& planet,
                                                           std::size_t dataset_cache,
-                                                          std::size_t surface_cache) {
+                                                          std::size_t surface_cache, double exaggeration) {
   using globe::planet::Dataset;
   using globe::planet::Surface;
-  if (const auto seed = procedural_seed(planet)) return Surface::builtin(*seed, surface_cache);
+  if (const auto seed = procedural_seed(planet)) return Surface::builtin(*seed, surface_cache, exaggeration);
   return Surface::from_dataset(std::make_shared<const Dataset>(Dataset::open(planet, dataset_cache)),
-                               surface_cache);
+                               surface_cache, exaggeration);
 }
 
 void require_heights(const globe::planet::Surface& surface, const std::string& planet) {

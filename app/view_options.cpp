@@ -54,6 +54,18 @@ void add_camera_options(CLI::App& command, CameraOptions& options) {
                      "UTC date and time of the sun, ISO 8601 (default: 10:00 local solar time, 21 March)");
   command.add_option("--detail", options.detail, "side of the hexagons in cells, 16 to 1024")
       ->capture_default_str();
+  command.add_option("--morph", options.morph, "off: levels change at once, to see what morphing is for")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"on", "off"}));
+  command.add_option("--exaggeration", options.exaggeration, "draw heights so many times as high")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 100.0));
+}
+
+globe::clipmap::Settings clipmap_settings(const CameraOptions& options) {
+  globe::clipmap::Settings settings = globe::clipmap::Settings::for_detail(options.detail);
+  settings.morph = options.morph == "on";
+  return settings;
 }
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
@@ -86,7 +98,12 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
 
 std::shared_ptr<const globe::planet::Surface> open_planet(const ViewOptions& options) {
   const std::size_t bytes = static_cast<std::size_t>(options.memory_mb) << 20;
-  return open_planet(options.planet, bytes / 5 * 2, bytes / 5 * 3);
+  return open_planet(options.planet, bytes / 5 * 2, bytes / 5 * 3, options.exaggeration);
+}
+
+std::shared_ptr<const globe::planet::Surface> open_planet(const CameraOptions& options) {
+  return open_planet(options.planet, kDatasetCache, globe::planet::Surface::kDefaultCache,
+                     options.exaggeration);
 }
 
 Look parse_look(const std::string& text) {
@@ -114,7 +131,7 @@ Size parse_size(const std::string& text) {
 
 globe::render::RenderSettings render_settings(const ViewOptions& options) {
   globe::render::RenderSettings settings;
-  settings.clipmap = globe::clipmap::Settings::for_detail(options.detail);
+  settings.clipmap = clipmap_settings(options);
   const auto positions = globe::clipmap::positions_by_name(options.positions);
   if (!positions) {
     throw UsageError("--positions " + options.positions, "no such way to place vertices",

@@ -19,10 +19,15 @@ struct CameraOptions {
   double fov_deg = 60.0;
   std::string time;
   int detail = 64;
+  std::string morph = "on";
+  double exaggeration = 1.0;
   bool agl = false;
 };
 
 void add_camera_options(CLI::App& command, CameraOptions& options);
+
+/// Detail and morphing. Throws UsageError.
+globe::clipmap::Settings clipmap_settings(const CameraOptions& options);
 
 /// The options that `shot` and `fly` share (COMMANDS.md, Pictures).
 struct ViewOptions : CameraOptions {
@@ -41,7 +46,9 @@ struct ViewOptions : CameraOptions {
 
 void add_view_options(CLI::App& command, ViewOptions& options);
 
-/// Opens the planet with --memory for its data. Throws what open_planet (app/planet_argument.h) throws.
+/// Opens the planet as it is to be drawn, with --memory for its data where there is such an option. Throws
+/// what open_planet (app/planet_argument.h) throws.
+std::shared_ptr<const globe::planet::Surface> open_planet(const CameraOptions& options);
 std::shared_ptr<const globe::planet::Surface> open_planet(const ViewOptions& options);
 
 /// Heading and pitch, degrees.

@@ -21,6 +21,7 @@ FinestLevel finest_level(const Settings& settings, double root_edge, double heig
   if (wanted < settings.base_level + 1) return {settings.base_level, 0.0f};
   if (wanted >= max_level + 1) return {max_level, 0.0f};
   const double whole = std::floor(wanted);
+  if (!settings.morph) return {static_cast<int>(whole), 0.0f};
   const double t = std::clamp(1.0 - 2.0 * (wanted - whole), 0.0, 1.0);
   return {static_cast<int>(whole), static_cast<float>(t * t * (3.0 - 2.0 * t))};
 }

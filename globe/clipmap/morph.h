@@ -19,6 +19,8 @@ struct MorphBand {
 };
 
 inline MorphBand morph_band(const Settings& settings) {
+  constexpr std::int32_t kNowhere = 1 << 30;
+  if (!settings.morph) return {kNowhere, kNowhere + 1};
   const auto third = static_cast<std::int32_t>(4 * settings.m * kSubcell / 3);
   return {static_cast<std::int32_t>(settings.s * kSubcell / 2) + third,
           static_cast<std::int32_t>(settings.s * kSubcell) - third};

@@ -12,6 +12,7 @@ struct Settings {
   int base_level = 6;      ///< l0, the largest level with 2^l0 <= s: covers the whole sphere, always resident
   int shading_levels = 2;  ///< slopes and colours are this many levels finer than the triangles they cover
   Positions positions = Positions::kExact;
+  bool morph = true;                  ///< false: levels change at once, to see what morphing is for
   Windows windows = Windows::kPlain;  ///< kHexagon only where positions are not interpolated
 
   /// Settings for a hexagon of at least `detail` cells (16 .. 1024), rounded up to a multiple of 2m.

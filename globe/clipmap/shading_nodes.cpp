@@ -141,6 +141,7 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
   const TileMetric metrics(surface.ellipsoid(), id);
   const double edge = std::ldexp(surface.root_edge(), -id.level);
   const bool sea = surface.has_sea();
+  const double exaggeration = surface.exaggeration();
   for (int j = part.j0; j <= part.j1; ++j) {
     for (int i = part.i0; i <= part.i1; ++i) {
       const Metric& metric = metrics.at(i, j);
@@ -161,7 +162,7 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
       const std::size_t k = static_cast<std::size_t>(j - held.j0) * static_cast<std::size_t>(held.width()) +
                             static_cast<std::size_t>(i - held.i0);
       ground_nodes.normal[k] =
-          encode_normal(water ? ground.slope * water_clarity(ground.height_m) : ground.slope);
+          encode_normal(water ? ground.slope * water_clarity(ground.height_m) : ground.slope * exaggeration);
       ground_nodes.albedo[k] = {encode_albedo(color.r), encode_albedo(color.g), encode_albedo(color.b),
                                 open_water ? 255 : 0};
     }

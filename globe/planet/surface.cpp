@@ -65,19 +65,26 @@ std::size_t Surface::TileHash::operator()(const TileId& id) const {
       vertex_hash(static_cast<std::uint64_t>(id.d * 64 + id.level), {id.ti, id.tj, 0}));
 }
 
-std::shared_ptr<const Surface> Surface::builtin(std::uint64_t seed, std::size_t cache_bytes) {
-  return std::shared_ptr<const Surface>(new Surface(builtin_info(seed), nullptr, seed, cache_bytes));
+std::shared_ptr<const Surface> Surface::builtin(std::uint64_t seed, std::size_t cache_bytes,
+                                                double exaggeration) {
+  return std::shared_ptr<const Surface>(
+      new Surface(builtin_info(seed), nullptr, seed, cache_bytes, exaggeration));
 }
 
 std::shared_ptr<const Surface> Surface::from_dataset(std::shared_ptr<const Dataset> dataset,
-                                                     std::size_t cache_bytes) {
+                                                     std::size_t cache_bytes, double exaggeration) {
   PlanetInfo info = dataset->info();
-  return std::shared_ptr<const Surface>(new Surface(std::move(info), std::move(dataset), 1, cache_bytes));
+  return std::shared_ptr<const Surface>(
+      new Surface(std::move(info), std::move(dataset), 1, cache_bytes, exaggeration));
 }
 
 Surface::Surface(PlanetInfo info, std::shared_ptr<const Dataset> dataset, std::uint64_t seed,
-                 std::size_t cache_bytes)
-    : info_(std::move(info)), dataset_(std::move(dataset)), seed_(seed), cache_bytes_(cache_bytes) {
+                 std::size_t cache_bytes, double exaggeration)
+    : info_(std::move(info)),
+      dataset_(std::move(dataset)),
+      seed_(seed),
+      exaggeration_(exaggeration),
+      cache_bytes_(cache_bytes) {
   if (dataset_) {
     const LayerInfo* heights = dataset_->layer("height");
     const LayerInfo* colors = dataset_->layer("color");

@@ -80,10 +80,13 @@ struct DataSource {
 class Surface {
  public:
   /// The built-in planet.
-  static std::shared_ptr<const Surface> builtin(std::uint64_t seed, std::size_t cache_bytes = kDefaultCache);
+  /// @param exaggeration  of the ground where it is drawn (drawn_height), >= 0; other heights stay true
+  static std::shared_ptr<const Surface> builtin(std::uint64_t seed, std::size_t cache_bytes = kDefaultCache,
+                                                double exaggeration = 1.0);
   /// A planet made by `globe convert`.
   static std::shared_ptr<const Surface> from_dataset(std::shared_ptr<const Dataset> dataset,
-                                                     std::size_t cache_bytes = kDefaultCache);
+                                                     std::size_t cache_bytes = kDefaultCache,
+                                                     double exaggeration = 1.0);
 
   static constexpr std::size_t kDefaultCache = std::size_t{384} << 20;
 
@@ -132,7 +135,10 @@ class Surface {
   bool is_airless() const { return info_.body == "moon"; }
   bool has_sea() const { return dataset_ == nullptr || info_.body == "earth"; }
   /// Height at which ground of a height is drawn: at 0 where it lies under a sea.
-  double drawn_height(double height_m) const { return has_sea() && height_m < 0.0 ? 0.0 : height_m; }
+  double drawn_height(double height_m) const {
+    return has_sea() && height_m < 0.0 ? 0.0 : height_m * exaggeration_;
+  }
+  double exaggeration() const { return exaggeration_; }
   /// Length of a level-0 edge along the mean sphere, metres; a level-L edge is about 2^-L of it.
   double root_edge() const;
 
@@ -140,7 +146,7 @@ class Surface {
 
  private:
   Surface(PlanetInfo info, std::shared_ptr<const Dataset> dataset, std::uint64_t seed,
-          std::size_t cache_bytes);
+          std::size_t cache_bytes, double exaggeration);
 
   struct Entry {
     TileId id;
@@ -176,6 +182,7 @@ class Surface {
   PlanetInfo info_;
   std::shared_ptr<const Dataset> dataset_;  ///< null for the built-in planet
   std::uint64_t seed_;
+  double exaggeration_;
   std::optional<BuiltinPlanet> builtin_;  ///< where there is no data set
   std::unique_ptr<const InsetStack> insets_;
   int data_level_ = 0;

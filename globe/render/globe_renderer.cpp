@@ -119,7 +119,8 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   stats.gpu_bytes = textures().bytes();
 
   if (wait) admission_.show(finest);
-  const clipmap::FinestLevel shown = wait ? finest : admission_.next(finest, state().target.finest);
+  clipmap::FinestLevel shown = wait ? finest : admission_.next(finest, state().target.finest);
+  if (!settings_.clipmap.morph) shown = {std::min(finest.level, state().target.finest), 0.0f};
   stats.finest_level = shown.level;
   stats.fade = shown.fade;
   const int levels = finest.level - settings_.clipmap.base_level + 1;
