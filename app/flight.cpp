@@ -24,9 +24,7 @@ glm::dvec3 normal(const FlightEnd& end) {
 
 }  // namespace
 
-double least_clearance(const geo::Ellipsoid& ellipsoid) {
-  return 2.0 * std::min(1.0, ellipsoid.mean_radius() / geo::kWgs84.mean_radius());
-}
+double least_clearance(const geo::Ellipsoid& ellipsoid) { return 2.0 * geo::small_body_scale(ellipsoid); }
 
 Flight::Flight(const globe::clipmap::Settings& settings,
                std::shared_ptr<const globe::planet::Surface> surface, int max_level, const FlightEnd& from,

@@ -56,7 +56,7 @@ class Flight {
   std::vector<Rise> rises_;
 };
 
-/// The least height above ground of a camera that flies: 2 m, less on planets smaller than the Earth.
+/// The least height above ground of a camera that flies: 2 m, less on small bodies.
 double least_clearance(const globe::geo::Ellipsoid& ellipsoid);
 
 }  // namespace app

@@ -71,7 +71,7 @@ std::string altitude_text(double metres) {
   } else if (metres >= 1e4) {
     std::snprintf(text, sizeof text, "%.1f km", metres / 1e3);
   } else {
-    std::snprintf(text, sizeof text, "%.0f m", metres);
+    std::snprintf(text, sizeof text, metres < 10.0 ? "%.2g m" : "%.0f m", metres);
   }
   return text;
 }
@@ -105,19 +105,20 @@ void run(const FlyOptions& options) {
   format.samples = view.samples;
   const globe::gl::Framebuffer target(size.width, size.height, format);
 
+  const double final_height = kFinalHeight * geo::small_body_scale(ellipsoid);
   Look look = view.look.empty() ? Look{0.0, 0.0} : parse_look(view.look);
   FlightEnd to;
   if (options.to.empty()) {
     const globe::planet::ScenicView scenic = globe::planet::scenic_place(*surface);
-    to = {scenic.place, kFinalHeight};
+    to = {scenic.place, final_height};
     if (view.look.empty()) look.heading_deg = scenic.heading_deg;
   } else {
-    to = parse_end(options.to, view.agl, kFinalHeight, renderer, ellipsoid);
+    to = parse_end(options.to, view.agl, final_height, renderer, ellipsoid);
   }
   const FlightEnd from =
       options.from == "orbit"
           ? FlightEnd{to.place, kOrbit * ellipsoid.mean_radius() / geo::kWgs84.mean_radius()}
-          : parse_end(options.from, view.agl, kFinalHeight, renderer, ellipsoid);
+          : parse_end(options.from, view.agl, final_height, renderer, ellipsoid);
   const glm::dvec3 sun = sun_for(view, *surface, to.place.lon_deg);
   const Flight flight(settings.clipmap, surface, settings.max_level, from, to, look.heading_deg,
                       look.pitch_deg);

@@ -9,7 +9,7 @@
 namespace app {
 
 /// Where the camera of a single picture stands: ALT counts from the ellipsoid, with --agl from the ground. A
-/// camera below 2 m above ground is raised to that, with a warning when it was not asked for.
+/// camera lower than least_clearance is raised to that, with a warning when it was not asked for.
 ///
 /// @param height_above_ground  of a position in ECEF, metres
 globe::geo::Geodetic standing_place(const Point& at, bool agl, const globe::geo::Ellipsoid& ellipsoid,

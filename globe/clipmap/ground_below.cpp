@@ -6,9 +6,7 @@
 
 namespace globe::clipmap {
 
-double least_above_ground(const geo::Ellipsoid& ellipsoid) {
-  return 0.1 * std::min(1.0, ellipsoid.mean_radius() / geo::kWgs84.mean_radius());
-}
+double least_above_ground(const geo::Ellipsoid& ellipsoid) { return 0.1 * geo::small_body_scale(ellipsoid); }
 
 double height_above_ground(const Settings& settings, const planet::Surface& surface, const dvec3& position,
                            int max_level, bool wait) {

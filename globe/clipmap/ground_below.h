@@ -6,7 +6,7 @@
 
 namespace globe::clipmap {
 
-/// A camera counts as no nearer to the ground than this, metres: 0.1, less on planets smaller than the Earth.
+/// A camera counts as no nearer to the ground than this, metres: 0.1, less on small bodies.
 double least_above_ground(const geo::Ellipsoid& ellipsoid);
 
 /// Height of a camera above the ground that is drawn at the finest level under it, metres.

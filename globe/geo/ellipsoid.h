@@ -34,6 +34,13 @@ inline constexpr Ellipsoid kWgs84{};
 inline constexpr Ellipsoid kMoon{1737400.0, 0.0};
 inline constexpr Ellipsoid kMars{3396190.0, 1.0 / 169.89444722361179};  // IAU 2000
 
+/// Factor for lengths of a person's size, such as how near the ground a camera comes: 1, on bodies of less
+/// than 1000 km of radius in proportion to it.
+inline double small_body_scale(const Ellipsoid& ellipsoid) {
+  constexpr double kSmall_m = 1e6;
+  return ellipsoid.mean_radius() < kSmall_m ? ellipsoid.mean_radius() / kSmall_m : 1.0;
+}
+
 /// Ellipsoid from a (metres, > 0) and f (< 1). Throws UsageError outside these ranges.
 Ellipsoid make_ellipsoid(double a, double f);
 

@@ -1,12 +1,9 @@
 // H25: the planet's limb stands where that of the ellipsoid does.
 
-#include <OpenImageIO/imageio.h>
-
 #include <array>
 
-#include "converters/convert.h"
-#include "globe/planet/dataset.h"
 #include "tests/hard/table.h"
+#include "tests/node_planet.h"
 #include "tests/render/ground/views.h"
 #include "tests/temporary_folder.h"
 
@@ -40,49 +37,66 @@ double drawn_row(const std::vector<float>& depth) {
   return row;
 }
 
-/// A planet that is sea all over: a map of one depth, converted.
-std::shared_ptr<const views::Surface> water_planet(const tests::TemporaryFolder& folder) {
-  const std::string map = folder / "depth.tif";
-  const std::vector<float> depth(32 * 16, -4000.0f);
-  const auto output = OIIO::ImageOutput::create(map);
-  EXPECT_TRUE(output && output->open(map, OIIO::ImageSpec(32, 16, 1, OIIO::TypeDesc::FLOAT)) &&
-              output->write_image(OIIO::TypeDesc::FLOAT, depth.data()) && output->close());
-  converters::ConvertOptions options;
-  options.heights = {converters::MapInput{map, {}, {}}};
-  options.planet = folder / "planet";
-  converters::convert(options, {});
-  return views::Surface::from_dataset(std::make_shared<const globe::planet::Dataset>(
-      globe::planet::Dataset::open(options.planet, std::size_t{1} << 24)));
-}
+/// How far the limb of a planet of water stands from the ellipsoid's, and from a sphere's, pixels.
+struct Limb {
+  double worst = 0, worst_sphere = 0;
+};
 
-TEST_F(GlTest, H25TheLimbStandsWhereTheEllipsoidsDoes) {
+/// @param altitudes  of which four in a row are looked at from four latitudes, from 1.6e-5 radii to 6.3
+Limb measure_limb(const Ellipsoid& ellipsoid, int altitudes) {
   const tests::TemporaryFolder folder;
-  const auto surface = water_planet(folder);
-  ASSERT_TRUE(surface->has_sea());
+  const double radius = ellipsoid.mean_radius();
+  tests::write_node_planet(
+      folder / "planet", 2, ellipsoid, [&](const globe::planet::Node&) { return -1e-3 * radius; }, "earth");
+  const auto surface = tests::open_surface(folder / "planet");
+  EXPECT_TRUE(surface->has_sea());
   views::GlobeRenderer renderer(surface, views::geometry_settings(128));
   const globe::gl::Framebuffer picture(kWidth, kHeight);
-  const Ellipsoid& ellipsoid = surface->ellipsoid();
-  const Ellipsoid sphere{ellipsoid.mean_radius(), 0.0};
-  double worst = 0, worst_sphere = 0;
-  for (int k = 0; k < 40; ++k) {
-    const double lat = std::array{89.0, 1.0, -45.0, 62.0}[static_cast<std::size_t>(k / 10)];
-    const double h = 100.0 * std::pow(4e5, (k % 10 * 4 + k / 10) / 39.0);
-    const double dip = std::acos(ellipsoid.mean_radius() / (ellipsoid.mean_radius() + h)) * kDegrees;
+  const Ellipsoid sphere{radius, 0.0};
+  Limb limb;
+  for (int k = 0; k < altitudes; ++k) {
+    const int place = k * 4 / altitudes;
+    const double lat = std::array{89.0, 1.0, -45.0, 62.0}[static_cast<std::size_t>(place)];
+    const double h = radius * 1.57e-5 * std::pow(4e5, (k % (altitudes / 4) * 4 + place) / (altitudes - 1.0));
+    const double dip = std::acos(radius / (radius + h)) * kDegrees;
     const Camera camera = globe::render::make_camera(ellipsoid, {lat, 33.0, h}, 72.0 * k, -dip, 20.0,
                                                      static_cast<double>(kWidth) / kHeight);
     renderer.draw(camera, dvec3(1, 0, 0), true, picture);
     // the limb is between the middles of the last row without ground and the first one with it
     const double seen = drawn_row(picture.read_depth());
-    worst = std::max(worst, std::abs(seen - analytic_row(ellipsoid, camera)) - 0.5);
-    worst_sphere = std::max(worst_sphere, std::abs(seen - analytic_row(sphere, camera)) - 0.5);
+    limb.worst = std::max(limb.worst, std::abs(seen - analytic_row(ellipsoid, camera)) - 0.5);
+    limb.worst_sphere = std::max(limb.worst_sphere, std::abs(seen - analytic_row(sphere, camera)) - 0.5);
   }
+  return limb;
+}
+
+TEST_F(GlTest, H25TheLimbStandsWhereTheEllipsoidsDoes) {
+  const Limb limb = measure_limb(globe::geo::kWgs84, 40);
   hard::report("H25",
                "limb of a planet of water against the ellipsoid's, 40 altitudes, 20 degrees in 720 rows",
-               "0.5 px", hard::figure(std::max(worst, 0.0)) + " px");
+               "0.5 px", hard::figure(std::max(limb.worst, 0.0)) + " px");
   hard::report("H25", "negative control: against the limb of a sphere", "> 0.5 px",
-               hard::figure(worst_sphere) + " px");
-  EXPECT_LE(worst, kLimbError);
-  EXPECT_GT(worst_sphere, kLimbError);
+               hard::figure(limb.worst_sphere) + " px");
+  EXPECT_LE(limb.worst, kLimbError);
+  EXPECT_GT(limb.worst_sphere, kLimbError);
+}
+
+TEST_F(GlTest, H25TheLimbOfPlanetsOfOtherShapesStandsWhereTheirEllipsoidsDoes) {
+  struct Shape {
+    const char* name;
+    Ellipsoid ellipsoid;
+  };
+  std::vector<Shape> shapes{{"a sphere of 1 m", {1.0, 0.0}}, {"an ellipsoid with f = 0.2", {6378137.0, 0.2}}};
+  if (hard::full()) {
+    shapes.push_back({"a sphere of 1e9 m", {1e9, 0.0}});
+    shapes.push_back({"Mars", globe::geo::kMars});
+  }
+  for (const Shape& shape : shapes) {
+    const Limb limb = measure_limb(shape.ellipsoid, hard::full() ? 40 : 8);
+    hard::report("H25", "the same of " + std::string(shape.name), "0.5 px",
+                 hard::figure(std::max(limb.worst, 0.0)) + " px");
+    EXPECT_LE(limb.worst, kLimbError) << shape.name;
+  }
 }
 
 }  // namespace

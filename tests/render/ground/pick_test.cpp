@@ -2,98 +2,32 @@
 
 #include <random>
 
-#include "globe/clipmap/drawn_surface.h"
-#include "globe/clipmap/ground_below.h"
 #include "tests/hard/table.h"
-#include "tests/render/ground/views.h"
+#include "tests/render/ground/depth_picture.h"
 
 namespace {
 
-using globe::clipmap::DrawnPoint;
 using globe::clipmap::DrawnSurface;
 using globe::clipmap::Settings;
 using views::Camera;
-using views::dvec3;
+using views::DepthPicture;
 using views::GlobeRenderer;
+using views::kPictureHeight;
+using views::kPictureWidth;
 using views::Place;
 using views::RenderSettings;
-
-constexpr int kWidth = 320;
-constexpr int kHeight = 180;
-constexpr double kHeightError_m = 0.01;  ///< beside the pixel's footprint
-constexpr double kSampled = 0.1;         ///< pixels: the GPU samples no farther from a pixel's middle (H1)
-
-/// What a picture shows, by its depth.
-class Picture {
- public:
-  Picture(GlobeRenderer& renderer, const globe::gl::Framebuffer& frame, const views::Surface& surface,
-          const Camera& camera)
-      : camera_(camera), ellipsoid_(surface.ellipsoid()) {
-    renderer.draw(camera, views::midnight(camera), true, frame);
-    depth_ = frame.read_depth();
-    near_m_ =
-        globe::render::near_distance(ellipsoid_, std::max(renderer.height_above_ground(camera.position),
-                                                          globe::clipmap::least_above_ground(ellipsoid_)));
-  }
-
-  dvec3 direction(double x, double y) const {
-    return globe::render::direction_through(camera_, (x + 0.5) / kWidth, (y + 0.5) / kHeight);
-  }
-
-  /// Height of the ground in a pixel; nothing where there is sky.
-  std::optional<double> height(int x, int y) const {
-    const auto depth = static_cast<double>(depth_[static_cast<std::size_t>(y * kWidth + x)]);
-    if (depth == 0.0) return std::nullopt;
-    const dvec3 ray = direction(x, y);
-    const dvec3 at = camera_.position + ray * (near_m_ / depth / glm::dot(ray, camera_.forward));
-    return globe::geo::geodetic_from_ecef(ellipsoid_, at).h_m;
-  }
-
-  /// The same of a surface, a little off the pixel's middle; with the width of a pixel there.
-  struct Picked {
-    double height_m, footprint_m;
-    DrawnPoint point;
-  };
-  std::optional<Picked> pick(const DrawnSurface& surface, double x, double y) const {
-    const dvec3 ray = direction(x, y);
-    const auto hit = surface.first_hit({camera_.position, ray}, near_m_ / glm::dot(ray, camera_.forward));
-    if (!hit) return std::nullopt;
-    return Picked{globe::geo::geodetic_from_ecef(ellipsoid_, hit->position).h_m,
-                  hit->distance_m * 2.0 * camera_.tan_y() / kHeight, *hit};
-  }
-
-  /// Whether a surface has the picture's ground in a pixel: within the pixel's footprint and a centimetre,
-  /// for a ray as near to the pixel's middle as the GPU samples. On a ridge the first may pass over it.
-  bool agrees(const DrawnSurface& surface, int x, int y) const {
-    const auto shown = height(x, y);
-    for (const double dy : {0.0, -kSampled, kSampled}) {
-      for (const double dx : {0.0, -kSampled, kSampled}) {
-        const auto picked = pick(surface, x + dx, y + dy);
-        if (!picked && !shown) return true;
-        if (picked && shown && std::abs(picked->height_m - *shown) <= picked->footprint_m + kHeightError_m)
-          return true;
-      }
-    }
-    return false;
-  }
-
- private:
-  Camera camera_;
-  globe::geo::Ellipsoid ellipsoid_;
-  std::vector<float> depth_;
-  double near_m_ = 0;
-};
 
 struct Counts {
   std::size_t pixels = 0, sky = 0, wrong = 0, morphed = 0;
   std::size_t wrong_exact = 0, wrong_coarser = 0;  ///< of the negative controls
 };
 
-void compare(const Picture& picture, const DrawnSurface& drawn, const DrawnSurface& coarser,
+void compare(const DepthPicture& picture, const DrawnSurface& drawn, const DrawnSurface& coarser,
              const views::Surface& surface, std::mt19937_64& random, Counts& counts) {
   constexpr int kPixels = 42;
   for (int k = 0; k < kPixels; ++k) {
-    const auto x = static_cast<int>(random() % kWidth), y = static_cast<int>(random() % kHeight);
+    const auto x = static_cast<int>(random() % kPictureWidth),
+               y = static_cast<int>(random() % kPictureHeight);
     ++counts.pixels;
     counts.wrong += picture.agrees(drawn, x, y) ? 0 : 1;
     counts.wrong_coarser += picture.agrees(coarser, x, y) ? 0 : 1;
@@ -105,7 +39,7 @@ void compare(const Picture& picture, const DrawnSurface& drawn, const DrawnSurfa
     const auto place = globe::geo::geodetic_from_ecef(surface.ellipsoid(), picked->point.position);
     const double exact = surface.drawn_height(
         surface.height(globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg), 16));
-    counts.wrong_exact += std::abs(exact - *shown) > picked->footprint_m + kHeightError_m ? 1 : 0;
+    counts.wrong_exact += std::abs(exact - *shown) > picked->footprint_m + views::kHeightError_m ? 1 : 0;
   }
 }
 
@@ -119,7 +53,7 @@ TEST_F(GlTest, H23TheGroundPickedAtAPixelIsTheGroundShownThere) {
   for (const int detail : details) {
     GlobeRenderer renderer(surface, views::geometry_settings(detail));
     const Settings& settings = renderer.clipmap_settings();
-    const globe::gl::Framebuffer frame(kWidth, kHeight);
+    const globe::gl::Framebuffer frame(kPictureWidth, kPictureHeight);
     for (std::size_t k = 0; k < cameras / details.size(); ++k) {
       const Place& place = views::hard_places()[k % views::hard_places().size()];
       const double above = k % 4 == 3 ? views::mid_fade_height(settings, *surface,
@@ -129,7 +63,7 @@ TEST_F(GlTest, H23TheGroundPickedAtAPixelIsTheGroundShownThere) {
       const Camera camera =
           views::camera_above(renderer, *surface, place, above, 360.0 * unit(random),
                               -dip - (90.0 - dip) * std::pow(unit(random), 2.0), k % 2 == 0 ? 60.0 : 6.0);
-      const Picture picture(renderer, frame, *surface, camera);
+      const DepthPicture picture(renderer, frame, *surface, camera);
       const int max_level = RenderSettings{}.max_level;
       const DrawnSurface drawn =
           globe::clipmap::complete_surface(settings, surface, camera.position, max_level);
