@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kNewest = 0.2;    ///< weight of the newest latency
 constexpr int kFarthestLead = 30;  ///< frames
-constexpr int kHorizons = 4;       ///< each twice as far as the one before
+constexpr int kFarthest = 100;     ///< frames to look ahead; each look is twice as far as the one before
+constexpr int kDeepestAhead = 3;   ///< levels finer than what is wanted now
 
 }  // namespace
 
@@ -126,14 +127,14 @@ clipmap::Target Loader::target_in(int frames, const clipmap::Target& now) const 
   const Forecast::Place place = forecast_.ahead(frames);
   const auto finest =
       clipmap::finest_level(settings_, surface_->root_edge(), std::max(place.height_m, 0.1), max_level_);
-  return {place.u, finest.level, now.lighting};
+  return {place.u, std::min(finest.level, now.finest + kDeepestAhead), now.lighting};
 }
 
 template <class Visit>
 bool Loader::any_horizon(const Visit& visit) const {
   if (!ahead_ || !forecast_.is_moving()) return visit(0);
-  int frames = std::clamp(static_cast<int>(std::lround(latency_frames_)), 1, kFarthestLead);
-  for (int k = 0; k < kHorizons; ++k, frames *= 2) {
+  const int first = std::clamp(static_cast<int>(std::lround(latency_frames_)), 1, kFarthestLead);
+  for (int frames = first; frames <= kFarthest; frames *= 2) {
     if (visit(frames)) return true;
   }
   return false;
