@@ -11,7 +11,7 @@ namespace {
 namespace shader {
 using namespace glm;
 #include "shaders/lib/clipmap.glsl"
-[[maybe_unused]] const auto kUnused = std::make_tuple(&exact_mix, &torus_texel);
+[[maybe_unused]] const auto kUnused = std::make_tuple(&exact_mix, &torus_texel, &brick_texel);
 }  // namespace shader
 
 namespace geo = globe::geo;
