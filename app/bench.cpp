@@ -32,20 +32,37 @@ std::string time_text(double ns) {
   return text;
 }
 
-/// "A / B: median ratio, 95 % interval" of two benchmarks, round by round.
-void print_ratio(const std::vector<BenchmarkResult>& results, const std::string& a, const std::string& b) {
+/// Calls visit with the results of two benchmarks, if both were run.
+template <class Visit>
+void with_both(const std::vector<BenchmarkResult>& results, const std::string& a, const std::string& b,
+               const Visit& visit) {
   const auto find = [&](const std::string& name) {
     return std::find_if(results.begin(), results.end(),
                         [&](const BenchmarkResult& r) { return r.name == name; });
   };
-  const auto over = find(a);
-  const auto under = find(b);
-  if (over == results.end() || under == results.end()) return;
-  std::vector<double> ratios;
-  for (std::size_t k = 0; k < over->ns.size(); ++k) ratios.push_back(over->ns[k] / under->ns[k]);
-  const Interval interval = median_interval(ratios);
-  std::printf("%s / %s, round by round: %.2f (95 %% interval %.2f to %.2f)\n", a.c_str(), b.c_str(),
-              percentile(ratios, 50), interval.low, interval.high);
+  const auto over = find(a), under = find(b);
+  if (over != results.end() && under != results.end()) visit(over->ns, under->ns);
+}
+
+/// "A / B: median ratio, 95 % interval" of two benchmarks, round by round.
+void print_ratio(const std::vector<BenchmarkResult>& results, const std::string& a, const std::string& b) {
+  with_both(results, a, b, [&](const std::vector<double>& over, const std::vector<double>& under) {
+    std::vector<double> ratios;
+    for (std::size_t k = 0; k < over.size(); ++k) ratios.push_back(over[k] / under[k]);
+    const Interval interval = median_interval(ratios);
+    std::printf("%s / %s, round by round: %.2f (95 %% interval %.2f to %.2f)\n", a.c_str(), b.c_str(),
+                percentile(ratios, 50), interval.low, interval.high);
+  });
+}
+
+/// "A / B: ratio of the 99th percentiles".
+void print_tail_ratio(const std::vector<BenchmarkResult>& results, const std::string& a,
+                      const std::string& b) {
+  with_both(results, a, b, [&](const std::vector<double>& over, const std::vector<double>& under) {
+    std::printf("%s / %s, 99th percentiles: %.2f / %.2f ms = %.2f\n", a.c_str(), b.c_str(),
+                percentile(over, 99) * 1e-6, percentile(under, 99) * 1e-6,
+                percentile(over, 99) / percentile(under, 99));
+  });
 }
 
 void run(const BenchOptions& options) {
@@ -97,6 +114,8 @@ void run(const BenchOptions& options) {
     std::printf("%s\n", rows.dump(1).c_str());
   } else {
     print_ratio(results, "fly.detail64", "fly.raw_gl");
+    print_ratio(results, "fly.uploads", "fly.no_uploads");
+    print_tail_ratio(results, "fly.uploads", "fly.no_uploads");
   }
 }
 

@@ -1,10 +1,12 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <memory>
 
 #include "app/bench.h"
+#include "app/frame_budget.h"
 #include "app/raw_gl.h"
 #include "globe/geo/sun.h"
 #include "globe/gl/context.h"
@@ -50,7 +52,8 @@ struct World {
   glm::dvec3 sun;
 };
 
-/// Draws the flight as in real time: what is there is drawn, what is missing loads meanwhile.
+/// Draws the flight as in real time: what is there is drawn, what is missing loads meanwhile, within the
+/// budget of `globe fly`.
 struct FlightRun {
   FlightRun(std::shared_ptr<World> shared, const Settings& settings)
       : world(std::move(shared)), renderer(world->surface, ground(settings)), target(kWidth, kHeight) {
@@ -66,14 +69,26 @@ struct FlightRun {
   }
 
   std::size_t draw_next() {
-    const render::FrameStats stats = renderer.draw(world->camera(round++), world->sun, false, target);
+    const auto begin = std::chrono::steady_clock::now();
+    const render::FrameStats stats =
+        renderer.draw(world->camera(round++), world->sun, false, target, budget.uploads_ms());
     glFinish();
+    budget.note(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count(),
+                stats.upload_ms);
     return stats.triangles;
+  }
+
+  /// The next frame with everything it needs, not measured, so that draw_loaded() has nothing to upload.
+  void load_next() { renderer.draw(world->camera(round), world->sun, true, target); }
+  void draw_loaded() {
+    renderer.draw(world->camera(round++), world->sun, true, target);
+    glFinish();
   }
 
   std::shared_ptr<World> world;
   render::GlobeRenderer renderer;
   globe::gl::Framebuffer target;
+  FrameBudget budget{std::nullopt};
   int round = 0;
 };
 
@@ -104,6 +119,18 @@ struct RawRun {
   int round = 0;
 };
 
+Benchmark draw_list_benchmark(const std::string& name, const std::shared_ptr<World>& world, int detail) {
+  auto flight = std::make_shared<FlightRun>(world, Settings::for_detail(detail));
+  const render::Camera camera = world->camera(world->rounds - 1);
+  flight->renderer.draw(camera, world->sun, true, flight->target);
+  return {name, 1, [flight, camera] {
+            const render::GlobeRenderer& renderer = flight->renderer;
+            render::make_draw_list(renderer.clipmap_settings(), renderer.state(), renderer.textures(),
+                                   flight->world->surface->ellipsoid(), camera,
+                                   renderer.state().target.finest, 0.0f, true);
+          }};
+}
+
 }  // namespace
 
 std::vector<BenchmarkEntry> flight_benchmarks(int rounds) {
@@ -126,6 +153,19 @@ std::vector<BenchmarkEntry> flight_benchmarks(int rounds) {
     Settings settings = Settings::for_detail(64);
     settings.positions = positions;
     add("fly.detail64." + std::string(globe::clipmap::name_of(positions)), settings);
+  }
+  // The same frames with uploads and without any.
+  add("fly.uploads", Settings::for_detail(64));
+  entries.push_back({"fly.no_uploads", [=] {
+                       auto flight = std::make_shared<FlightRun>(world(), Settings::for_detail(64));
+                       flight->load_next();
+                       return Benchmark{"fly.no_uploads", 1, [flight] { flight->draw_loaded(); },
+                                        [flight] { flight->load_next(); }};
+                     }});
+  // What a frame costs the processor before the driver: the patches in view from eye height.
+  for (const int detail : {64, 128}) {
+    const std::string name = "render.draw_list.detail" + std::to_string(detail);
+    entries.push_back({name, [=] { return draw_list_benchmark(name, world(), detail); }});
   }
   entries.push_back({"fly.raw_gl", [=] {
                        auto raw = std::make_shared<RawRun>(world());

@@ -31,11 +31,12 @@ FlightStats::FlightStats(std::string renderer, std::string gl_version, int width
 void FlightStats::write(const std::string& path) const {
   using nlohmann::json;
   json frames = json::array();
-  std::vector<double> times;
+  std::vector<double> times, cpu_times;
   std::size_t upload_bytes = 0, complete = 0;
   double completeness = 0.0;
   for (const Frame& f : frames_) {
     times.push_back(f.frame_ms);
+    cpu_times.push_back(f.drawn.cpu_ms);
     frames.push_back({{"frame", f.frame},
                       {"lat", f.place.lat_deg},
                       {"lon", f.place.lon_deg},
@@ -73,6 +74,8 @@ void FlightStats::write(const std::string& path) const {
                         {"frame_ms_p90", percentile(times, 90)},
                         {"frame_ms_p99", percentile(times, 99)},
                         {"frame_ms_max", percentile(times, 100)},
+                        {"cpu_ms_median", percentile(cpu_times, 50)},
+                        {"cpu_ms_p99", percentile(cpu_times, 99)},
                         {"upload_bytes", upload_bytes},
                         {"completeness", completeness / count},
                         {"complete", static_cast<double>(complete) / count}}}};

@@ -25,10 +25,9 @@ LatticePoint turn(LatticePoint p, int steps) {
 
 }  // namespace
 
-GridPoint nadir(const dvec3& u, int level) {
-  const planet::Place place = planet::locate(u, kMaxLevel);
+GridPoint Nadir::at(int level) const {
   const double scale = std::ldexp(static_cast<double>(kSubcell), level - kMaxLevel);
-  return {place.d, level, {std::llround(place.ij.x * scale), std::llround(place.ij.y * scale)}};
+  return {finest_.d, level, {std::llround(finest_.ij.x * scale), std::llround(finest_.ij.y * scale)}};
 }
 
 GridPoint grid_point(const Node& node) {

@@ -34,8 +34,18 @@ struct GridPoint {
   LatticePoint at;  ///< inside diamond d, 1/1024 cells of `level`
 };
 
-/// The camera's nadir at a level. Coordinates of all levels are the finest ones halved, so that levels nest.
-GridPoint nadir(const dvec3& u, int level);
+/// The camera's nadir. Coordinates of all levels are the finest ones halved, so that levels nest.
+class Nadir {
+ public:
+  explicit Nadir(const dvec3& u) : finest_(planet::locate(u, planet::kMaxLevel)) {}
+  GridPoint at(int level) const;
+
+ private:
+  planet::Place finest_;
+};
+
+/// The same at one level.
+inline GridPoint nadir(const dvec3& u, int level) { return Nadir(u).at(level); }
 
 GridPoint grid_point(const Node& node);
 

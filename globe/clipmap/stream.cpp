@@ -31,10 +31,11 @@ std::size_t StateUpdate::upload_bytes() const {
 }
 
 int levels_in_place(const Settings& settings, const ClipmapState& state, const dvec3& u) {
+  const Nadir below(u);
   int count = 1;  // the base level always is
   for (; count < static_cast<int>(state.levels.size()); ++count) {
     const Region& region = state.levels[static_cast<std::size_t>(count)]->region;
-    if (!(nearest_lattice_node(nadir(u, region.level), settings.unit()) == region.centre)) break;
+    if (!(nearest_lattice_node(below.at(region.level), settings.unit()) == region.centre)) break;
   }
   return count;
 }
@@ -55,6 +56,7 @@ bool still_holds(const Settings& settings, const ClipmapState& state, const Targ
 StateUpdate advance(const Settings& settings, const planet::Surface& surface, const Target& target,
                     const ClipmapState* before, Stride stride, int fills) {
   const int wanted = target.finest - settings.base_level + 1;
+  const Nadir below(target.u);
   const auto held_at = [&](int k) -> const LevelData* {
     const auto index = static_cast<std::size_t>(k);
     return before != nullptr && index < before->levels.size() ? before->levels[index].get() : nullptr;
@@ -62,7 +64,7 @@ StateUpdate advance(const Settings& settings, const planet::Surface& surface, co
   const auto in_place = [&](int k) {
     const LevelData* held = held_at(k);
     if (held == nullptr) return false;
-    const GridPoint point = nadir(target.u, settings.base_level + k);
+    const GridPoint point = below.at(settings.base_level + k);
     return k == 0 || nearest_lattice_node(point, settings.unit()) == held->region.centre;
   };
   const auto is_lit = [&](int k) { return held_at(k)->lighting == target.lighting; };
@@ -80,7 +82,7 @@ StateUpdate advance(const Settings& settings, const planet::Surface& surface, co
       }
       const LevelData* held = held_at(count);
       const double kept =
-          held != nullptr ? share_kept(settings, *held, nadir(target.u, settings.base_level + count)) : 0.0;
+          held != nullptr ? share_kept(settings, *held, below.at(settings.base_level + count)) : 0.0;
       cost += std::clamp(1.0 - kept, kLeastCost, 1.0);
     }
   }
@@ -95,9 +97,8 @@ StateUpdate advance(const Settings& settings, const planet::Surface& surface, co
       state->levels[index] = before->levels[index];
       return;
     }
-    updates[index] =
-        update_level(settings, surface, make_region(settings, nadir(target.u, settings.base_level + k)),
-                     target.lighting, held_at(k));
+    updates[index] = update_level(settings, surface, make_region(settings, below.at(settings.base_level + k)),
+                                  target.lighting, held_at(k));
     state->levels[index] = updates[index].data;
   });
   if (count == wanted) {

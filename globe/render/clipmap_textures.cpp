@@ -13,7 +13,8 @@ using clipmap::LevelData;
 using clipmap::NodeRect;
 using planet::kDiamonds;
 
-constexpr int kFirstLayers = 24;  ///< a camera away from diamond edges needs one a level
+/// A camera away from diamond edges needs one a level, four for the base level, and some for what is loading.
+constexpr int kFirstLayers = 28;
 
 /// True when a torus of `side` texels holds both rectangles without one overwriting the other.
 bool fit_together(const NodeRect& a, const NodeRect& b, int side) {
@@ -150,12 +151,20 @@ void ClipmapTextures::assign_layers() {
       loading_->layers[{level->region.level, d}] = kept;
     }
   }
+  const auto make_larger = [&](UploadJob::Kind kind, const LayerPool& pool) {
+    for (int plane = 0; plane < static_cast<int>(pool.planes()); ++plane) {
+      const auto k = static_cast<std::size_t>(plane);
+      queue_.add({kind, plane, whole_torus(pool.side(k)), pool.grown_texel_bytes(k), nullptr, nullptr, 0});
+    }
+  };
   if (vertices_.reserve(fresh_vertices)) {
+    make_larger(UploadJob::Kind::kGrowVertices, vertices_);
     for (const auto& [share, kept] : loading_->layers) {
       if (kept.vertices >= 0) copy_vertices(kept.vertices, kept.vertices, whole_torus(vertices_.side(0)));
     }
   }
   if (shading_.reserve(fresh_shading)) {
+    make_larger(UploadJob::Kind::kGrowShading, shading_);
     for (const auto& [share, kept] : loading_->layers) {
       if (kept.shading >= 0) copy_shading(kept.shading, kept.shading, whole_torus(shading_.side(0)));
     }
@@ -232,6 +241,12 @@ void ClipmapTextures::perform(const UploadJob& job) {
     pool.upload(plane, job.layer, which, job.nodes, &texels[first], held.width());
   };
   switch (job.kind) {
+    case UploadJob::Kind::kGrowVertices:
+      vertices_.grow();
+      break;
+    case UploadJob::Kind::kGrowShading:
+      shading_.grow();
+      break;
     case UploadJob::Kind::kVertices:
       if (clipmap::is_interpolated(settings_.positions)) {
         upload(vertices_, 0, 0, job.vertices->height, job.vertices->nodes);

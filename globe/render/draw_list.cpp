@@ -125,11 +125,12 @@ DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::Clipma
   for (int level = settings.base_level; level <= finest; ++level)
     lowest_m = std::min(lowest_m, levels.data(level).lowest_m);
   const clipmap::Horizon horizon(ellipsoid, lowest_m, camera.position);
+  const clipmap::Nadir below(state.target.u);
   std::vector<std::array<int, kDiamonds>> slot_of;
   for (int level = settings.base_level; level <= finest; ++level) {
     const LevelData& data = levels.data(level);
     slot_of.emplace_back().fill(-1);
-    const clipmap::GridPoint nadir = clipmap::nadir(state.target.u, level);
+    const clipmap::GridPoint nadir = below.at(level);
     for (int d = 0; d < kDiamonds; ++d) {
       const auto k = static_cast<std::size_t>(d);
       const NodeRect& rect = data.vertices[k];
@@ -164,7 +165,7 @@ DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::Clipma
   for (int level = finest; level >= settings.base_level; --level) {
     const LevelData& data = levels.data(level);
     const clipmap::Region* hole = level < finest ? &levels.data(level + 1).region : nullptr;
-    const clipmap::GridPoint nadir = clipmap::nadir(state.target.u, level);
+    const clipmap::GridPoint nadir = below.at(level);
     std::array<std::vector<LatticePoint>, kDiamonds> images;
     for (int d = 0; d < kDiamonds; ++d) images[static_cast<std::size_t>(d)] = clipmap::images(nadir, d);
     for (std::size_t p = 0; p < data.patches.size(); ++p) {

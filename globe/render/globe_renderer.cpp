@@ -99,6 +99,7 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
 FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool wait,
                                const gl::Framebuffer& target, double upload_ms) {
   FrameStats stats;
+  auto begin = std::chrono::steady_clock::now();
   const double above = std::max(height_above_ground(camera.position, wait),
                                 clipmap::least_above_ground(surface_->ellipsoid()));
   const auto finest =
@@ -110,10 +111,12 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   // Frames in real time keep the light they have while the sun stands still, near enough.
   if (!wait && loader_.state() && glm::distance(sun, state().target.lighting.sun) < kSunMoved)
     wanted.lighting = state().target.lighting;
-  const auto load_begin = std::chrono::steady_clock::now();
-  stats.upload_bytes =
-      wait || !loader_.state() ? loader_.load_whole(wanted) : loader_.load_some(wanted, above, upload_ms);
-  stats.upload_ms = milliseconds_since(load_begin);
+  const bool whole = wait || !loader_.state();
+  const Loader::Uploaded uploaded =
+      whole ? loader_.load_whole(wanted) : loader_.load_some(wanted, above, upload_ms);
+  if (whole) begin = std::chrono::steady_clock::now();
+  stats.upload_bytes = uploaded.bytes;
+  stats.upload_ms = uploaded.ms;
   stats.queued_jobs = loader_.queued_jobs();
   stats.queued_bytes = textures().queued_bytes();
   stats.gpu_bytes = textures().bytes();
@@ -130,6 +133,11 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   stats.complete = ready == levels && shown.fade == finest.fade;
 
   const ViewBlock view = view_block(camera, *surface_, sun, near_distance(surface_->ellipsoid(), above));
+  const DrawList list = make_draw_list(settings_.clipmap, state(), textures(), surface_->ellipsoid(), camera,
+                                       shown.level, shown.fade, settings_.cull_patches);
+  stats.cpu_ms = milliseconds_since(begin) - (whole ? 0.0 : stats.upload_ms);
+  stats.patches = list.patches;
+
   view_.upload(0, &view, sizeof(view));
   view_.bind_base(GL_UNIFORM_BUFFER, 0);
   if (sky_) sky_->prepare();
@@ -150,11 +158,6 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   target.clear_color(background.r, background.g, background.b, 1.0f);
   target.clear_depth(0.0f);
 
-  const auto begin = std::chrono::steady_clock::now();
-  const DrawList list = make_draw_list(settings_.clipmap, state(), textures(), surface_->ellipsoid(), camera,
-                                       shown.level, shown.fade, settings_.cull_patches);
-  stats.cpu_ms = milliseconds_since(begin);
-  stats.patches = list.patches;
   draw_ground(list, stats);
   if (sky_) sky_->draw(view);
   return stats;

@@ -40,8 +40,9 @@ struct FrameStats {
   std::size_t patches = 0;
   std::size_t upload_bytes = 0;
   double upload_ms = 0;  ///< spent on it by this thread
-  double cpu_ms = 0;     ///< choosing levels and patches: our own work, loading and the driver's left out
-  int queued_jobs = 0;   ///< levels being computed and uploads that wait
+  double cpu_ms = 0;    ///< our own work: heights, levels, what to load, patches; uploads and the driver left
+                        ///< out, and all of loading where a frame waits
+  int queued_jobs = 0;  ///< levels being computed and uploads that wait
   std::size_t queued_bytes = 0;  ///< of the uploads
   std::size_t gpu_bytes = 0;     ///< of the clipmap's textures
   int finest_level = 0;

@@ -21,18 +21,16 @@ std::size_t bytes_of(const std::vector<gl::Texture>& textures) {
 }  // namespace
 
 LayerPool::LayerPool(std::vector<Plane> planes, GLenum filter, int layers)
-    : planes_(std::move(planes)), filter_(filter), layers_(layers), current_(make(layers)) {
+    : planes_(std::move(planes)), filter_(filter), layers_(layers) {
+  for (const Plane& plane : planes_) current_.push_back(make(plane, layers));
   for (int layer = layers - 1; layer >= 0; --layer) free_.push_back(layer);
 }
 
-std::vector<gl::Texture> LayerPool::make(int layers) const {
-  std::vector<gl::Texture> textures;
-  for (const Plane& plane : planes_) {
-    textures.push_back(gl::Texture::array(plane.format, plane.side, plane.side, plane.each * layers));
-    textures.back().set_filter(filter_, filter_);
-    textures.back().set_wrap(GL_REPEAT);
-  }
-  return textures;
+gl::Texture LayerPool::make(const Plane& plane, int layers) const {
+  gl::Texture texture = gl::Texture::array(plane.format, plane.side, plane.side, plane.each * layers);
+  texture.set_filter(filter_, filter_);
+  texture.set_wrap(GL_REPEAT);
+  return texture;
 }
 
 int LayerPool::acquire() {
@@ -46,20 +44,28 @@ bool LayerPool::reserve(int count) {
   const int missing = count - free_layers();
   if (missing <= 0) return false;
   assert(!is_growing());
-  const int after = layers_ + (missing + kGrowth - 1) / kGrowth * kGrowth;
-  grown_ = make(after);
-  for (int layer = after - 1; layer >= layers_; --layer) free_.insert(free_.begin(), layer);
+  grown_layers_ = layers_ + (missing + kGrowth - 1) / kGrowth * kGrowth;
+  for (int layer = grown_layers_ - 1; layer >= layers_; --layer) free_.insert(free_.begin(), layer);
   return true;
+}
+
+void LayerPool::grow() { grown_.push_back(make(planes_[grown_.size()], grown_layers_)); }
+
+std::size_t LayerPool::grown_texel_bytes(std::size_t plane) const {
+  return static_cast<std::size_t>(grown_layers_ * planes_[plane].each) *
+         gl::pixel_layout(planes_[plane].format).bytes_per_texel;
 }
 
 void LayerPool::finish_growth() {
   if (!is_growing()) return;
+  assert(grown_.size() == planes_.size());
   current_ = std::exchange(grown_, {});
-  layers_ = current_.front().layers() / planes_.front().each;
+  layers_ = std::exchange(grown_layers_, 0);
 }
 
 void LayerPool::abandon_growth() {
   grown_.clear();
+  grown_layers_ = 0;
   std::erase_if(free_, [&](int layer) { return layer >= layers_; });
 }
 

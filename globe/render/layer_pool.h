@@ -29,10 +29,14 @@ class LayerPool {
   void release(int layer) { free_.push_back(layer); }
   int free_layers() const { return static_cast<int>(free_.size()); }
 
-  /// Sees to it that `count` layers are free. Returns true when that began growth: what lies in layers in use
-  /// then has to be copied (copy_from_current).
+  /// Sees to it that `count` layers are free. Returns true when that began growth: grow() then has to be
+  /// called for every plane, and what lies in layers in use to be copied (copy_from_current).
   bool reserve(int count);
-  bool is_growing() const { return !grown_.empty(); }
+  /// Makes the next plane's larger array.
+  void grow();
+  /// Bytes of one texel of it in all of its layers.
+  std::size_t grown_texel_bytes(std::size_t plane) const;
+  bool is_growing() const { return grown_layers_ > 0; }
   void finish_growth();
   void abandon_growth();
 
@@ -47,6 +51,7 @@ class LayerPool {
 
   /// The textures in use.
   const gl::Texture& texture(std::size_t plane) const { return current_[plane]; }
+  std::size_t planes() const { return planes_.size(); }
   int side(std::size_t plane) const { return planes_[plane].side; }
   int layers() const { return layers_; }
   /// Of all textures, those of a growth included.
@@ -54,14 +59,15 @@ class LayerPool {
   std::size_t layer_bytes() const;
 
  private:
-  std::vector<gl::Texture> make(int layers) const;
+  gl::Texture make(const Plane& plane, int layers) const;
   std::vector<gl::Texture>& written() { return is_growing() ? grown_ : current_; }
 
   std::vector<Plane> planes_;
   GLenum filter_;
   int layers_;
   std::vector<gl::Texture> current_;  ///< by plane
-  std::vector<gl::Texture> grown_;    ///< empty unless growing
+  std::vector<gl::Texture> grown_;    ///< as far as they are made
+  int grown_layers_ = 0;              ///< of each; 0 unless growing
   std::vector<int> free_;
 };
 

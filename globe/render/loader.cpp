@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kNewest = 0.2;    ///< weight of the newest latency
 constexpr int kFarthestLead = 30;  ///< frames
-constexpr int kHorizons = 4;       ///< each twice as far as the one before
+constexpr int kFarthest = 100;     ///< frames to look ahead; each look is twice as far as the one before
+constexpr int kDeepestAhead = 3;   ///< levels finer than what is wanted now
 
 }  // namespace
 
@@ -24,26 +25,28 @@ Loader::Loader(const clipmap::Settings& settings, std::shared_ptr<const planet::
       ahead_(ahead),
       textures_(settings) {}
 
-std::size_t Loader::load_whole(const clipmap::Target& target) {
+Loader::Uploaded Loader::load_whole(const clipmap::Target& target) {
   stream_.reset();
   textures_.abandon();
   if (state_ && clipmap::still_holds(settings_, *state_, target)) {
     follow(target);
-    return 0;
+    return {};
   }
   clipmap::StateUpdate update =
       clipmap::advance(settings_, *surface_, target, state_.get(), clipmap::Stride::kWhole);
   state_ = update.state;
-  return textures_.apply(std::move(update));
+  const double begin = UploadQueue::steady_milliseconds();
+  const std::size_t bytes = textures_.apply(std::move(update));
+  return {bytes, UploadQueue::steady_milliseconds() - begin};
 }
 
-std::size_t Loader::load_some(const clipmap::Target& target, double height_m, double ms) {
+Loader::Uploaded Loader::load_some(const clipmap::Target& target, double height_m, double ms) {
   ++frame_;
   forecast_.note({target.u, height_m});
   if (!stream_) stream_ = std::make_unique<clipmap::Stream>(settings_, surface_);
-  const double begin = UploadQueue::steady_milliseconds();
-  std::size_t bytes = 0;
-  for (double left = ms;; left = ms - (UploadQueue::steady_milliseconds() - begin)) {
+  Uploaded sum;
+  do {
+    const double begin = UploadQueue::steady_milliseconds();
     if (!textures_.loading()) {
       auto update = stream_->take();
       if (!update) break;
@@ -51,15 +54,17 @@ std::size_t Loader::load_some(const clipmap::Target& target, double height_m, do
       loading_asked_at_ = asked_at_;
       arrival_noted_ = false;
     }
-    bytes += textures_.upload(left);
+    if (!textures_.is_loaded()) {
+      sum.bytes += textures_.upload(ms - sum.ms);
+      sum.ms += UploadQueue::steady_milliseconds() - begin;
+    }
     if (!textures_.is_loaded()) break;
     if (!std::exchange(arrival_noted_, true))
       latency_frames_ += kNewest * (frame_ - loading_asked_at_ - latency_frames_);
-    if (!swap_if_due(target) || left <= 0.0) break;
-  }
+  } while (swap_if_due(target) && sum.ms < ms);
   follow(target);
   ask(target);
-  return bytes;
+  return sum;
 }
 
 bool Loader::swap_if_due(const clipmap::Target& target) {
@@ -126,14 +131,14 @@ clipmap::Target Loader::target_in(int frames, const clipmap::Target& now) const 
   const Forecast::Place place = forecast_.ahead(frames);
   const auto finest =
       clipmap::finest_level(settings_, surface_->root_edge(), std::max(place.height_m, 0.1), max_level_);
-  return {place.u, finest.level, now.lighting};
+  return {place.u, std::min(finest.level, now.finest + kDeepestAhead), now.lighting};
 }
 
 template <class Visit>
 bool Loader::any_horizon(const Visit& visit) const {
   if (!ahead_ || !forecast_.is_moving()) return visit(0);
-  int frames = std::clamp(static_cast<int>(std::lround(latency_frames_)), 1, kFarthestLead);
-  for (int k = 0; k < kHorizons; ++k, frames *= 2) {
+  const int first = std::clamp(static_cast<int>(std::lround(latency_frames_)), 1, kFarthestLead);
+  for (int frames = first; frames <= kFarthest; frames *= 2) {
     if (visit(frames)) return true;
   }
   return false;

@@ -21,12 +21,17 @@ class Loader {
   Loader(const clipmap::Settings& settings, std::shared_ptr<const planet::Surface> surface, int max_level,
          bool ahead);
 
-  /// All that the target asks for, at once. Returns the bytes uploaded.
-  std::size_t load_whole(const clipmap::Target& target);
+  struct Uploaded {
+    std::size_t bytes = 0;
+    double ms = 0;  ///< that it took this thread
+  };
 
-  /// One frame of a camera that does not wait: about `ms` milliseconds of uploads. Returns their bytes.
+  /// All that the target asks for, at once.
+  Uploaded load_whole(const clipmap::Target& target);
+
+  /// One frame of a camera that does not wait: about `ms` milliseconds of uploads.
   /// REQUIRES: load_whole() was called once.
-  std::size_t load_some(const clipmap::Target& target, double height_m, double ms);
+  Uploaded load_some(const clipmap::Target& target, double height_m, double ms);
 
   /// What is to be drawn: levels up to its target's finest one. Null before anything was loaded.
   const std::shared_ptr<const clipmap::ClipmapState>& state() const { return state_; }

@@ -51,7 +51,8 @@ std::size_t UploadQueue::run(double ms, const std::function<void(const UploadJob
     const double left = ms - (now - begin);
     UploadJob job = jobs_.front();
     jobs_.pop_front();
-    while (job.bytes() > kSmallestBytes && static_cast<double>(job.bytes()) > affordable(job, left)) {
+    while (!job.is_whole() && job.bytes() > kSmallestBytes &&
+           static_cast<double>(job.bytes()) > affordable(job, left)) {
       UploadJob rest = job;
       std::tie(job.nodes, rest.nodes) = halves(job.nodes);
       jobs_.push_front(rest);

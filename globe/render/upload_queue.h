@@ -9,13 +9,23 @@
 
 namespace globe::render {
 
-/// A rectangle of one layer's texels to bring in: from a block in memory, or from another layer.
+/// A rectangle of one layer's texels to bring in: from a block in memory, or from another layer. Or a texture
+/// to make, in one piece: drivers may well fill it.
 struct UploadJob {
-  enum class Kind { kVertices, kKnots, kShading, kCopyVertices, kCopyKnots, kCopyShading };
-  static constexpr std::size_t kKinds = 6;
+  enum class Kind {
+    kVertices,
+    kKnots,
+    kShading,
+    kCopyVertices,
+    kCopyKnots,
+    kCopyShading,
+    kGrowVertices,
+    kGrowShading
+  };
+  static constexpr std::size_t kKinds = 8;
 
   Kind kind = Kind::kVertices;
-  int layer = 0;                                   ///< where to
+  int layer = 0;                                   ///< where to; to make: which plane
   clipmap::NodeRect nodes;                         ///< or knots; not empty
   std::size_t node_bytes = 0;                      ///< of each of them
   const clipmap::VertexBlock* vertices = nullptr;  ///< of kVertices and kKnots: holds `nodes`
@@ -23,6 +33,7 @@ struct UploadJob {
   int from_layer = 0;                              ///< of copies
 
   std::size_t bytes() const;
+  bool is_whole() const { return kind == Kind::kGrowVertices || kind == Kind::kGrowShading; }
 };
 
 /// What waits to be uploaded, first come, first served, within a frame's time.
