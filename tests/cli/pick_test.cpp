@@ -123,6 +123,27 @@ TEST(Pick, HeightDrawnAgreesWhereNothingIsMorphed) {
   EXPECT_NEAR(json::parse(height.out)["height_m"].get<double>(), at["height_m"].get<double>(), 1e-6);
 }
 
+TEST(Pick, ExaggeratedGroundStandsSoManyTimesAsHigh) {
+  // Straight down, from so high above the ground that the finest level is the same and nothing is morphed.
+  const auto height = [](const std::string& times) {
+    return pick("procedural", {"--at", "46,7,9000", "--size", "33x33", "--detail", "16", "--pixel", "16,16",
+                               "--exaggeration", times})["height_m"]
+        .get<double>();
+  };
+  const double plain = height("1");
+  EXPECT_GT(plain, 100.0);
+  EXPECT_NEAR(height("0"), 0.0, 1.0);  // the flat trixel sags below the ellipsoid
+  EXPECT_NEAR(height("1.5"), 1.5 * plain, 0.02 * plain);
+}
+
+TEST(Pick, WithoutMorphingALevelsGroundIsItsOwn) {
+  const json on = pick("procedural", with(kCamera, {"--pixel", "160,100"}));
+  const json off = pick("procedural", with(kCamera, {"--pixel", "160,100", "--morph", "off"}));
+  EXPECT_EQ(off["alpha"], 0.0);
+  EXPECT_NEAR(on["distance_m"].get<double>(), off["distance_m"].get<double>(),
+              0.05 * on["distance_m"].get<double>());
+}
+
 TEST(Pick, APlanetOfColorsAloneIsPickedAsItIsDrawn) {
   const tests::TemporaryFolder folder;
   cli::make_planet(folder.path(), {});
