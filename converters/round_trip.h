@@ -31,8 +31,8 @@ struct RoundTripMethod {
 
 /// What a map loses on its way to the nodes of a level and back to a map.
 struct RoundTripLoss {
-  double max_m = 0;    ///< largest difference
-  int worst_x = 0;     ///< the pixel that has it
+  double max_m = 0;  ///< largest difference
+  int worst_x = 0;   ///< the pixel that has it
   int worst_y = 0;
   double rms_m = 0;    ///< root of the mean square, by area
   double psnr_db = 0;  ///< 20 log10 of (highest less lowest of the truth) / rms

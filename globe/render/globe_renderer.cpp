@@ -12,31 +12,15 @@
 
 #include "globe/clipmap/ground_below.h"
 #include "globe/clipmap/morph.h"
+#include "globe/render/ground_program.h"
 #include "globe/render/view_block.h"
 
 namespace globe::render {
 namespace {
 
-constexpr int kHazeSteps = 4;  ///< samples of the air between the eye and a vertex
 constexpr std::size_t kMaxInstances = 32768;
 constexpr double kSunMoved =
     1e-3;  ///< radians (0.06 degrees) after which frames in real time light the ground anew
-
-gl::Program ground_program(const Look& look, const RenderSettings& settings,
-                           const ClipmapTextures& textures) {
-  gl::ProgramSources sources;
-  sources.files = {"clipmap.vert", "clipmap.frag"};
-  sources.defines = textures.defines();
-  sources.defines.push_back("MAX_SLOTS " + std::to_string(kMaxSlots));
-  sources.defines.push_back("HAZE_STEPS " + std::to_string(kHazeSteps));
-  if (look.kind != Kind::kPlain) sources.defines.push_back("MORPH");
-  if (look.kind == Kind::kRim) sources.defines.push_back("RIM");
-  if (look.shading != Shading::kCoarse) sources.defines.push_back("SHADE_FINE");
-  if (look.kind != Kind::kPlain && look.shading != Shading::kFine) sources.defines.push_back("SHADE_COARSE");
-  if (look.shading == Shading::kGlint) sources.defines.push_back("GLINT");
-  if (settings.show != Show::kGround || settings.wireframe) sources.defines.push_back("SHOW");
-  return gl::Program(sources);
-}
 
 double milliseconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
@@ -65,8 +49,8 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
   ground_array_.set_vertices(1, instances_, 0, sizeof(glm::ivec4), 1);
   ground_array_.set_attribute(1, {1, 4, GL_INT, 0, gl::Attribute::Kind::kInteger});
   ground_array_.set_indices(indices_);
-  for (std::size_t k = 0; k < kLooks.size(); ++k)
-    ground_[k] = ground_program(kLooks[k], settings_, textures());
+  const bool tinted = settings_.show != Show::kGround || settings_.wireframe;
+  for (std::size_t k = 0; k < kLooks.size(); ++k) ground_[k] = ground_program(kLooks[k], textures(), tinted);
   if (!settings_.background) sky_.emplace(has_air(surface_->info()));
 }
 

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "globe/gl/program.h"
+#include "globe/render/clipmap_textures.h"
+#include "globe/render/draw_list.h"
+
+namespace globe::render {
+
+/// The program that draws patches of one look from such textures.
+///
+/// @param tinted  with the uniforms `overlay` and `show` of shaders/clipmap.frag
+gl::Program ground_program(const Look& look, const ClipmapTextures& textures, bool tinted,
+                           const gl::ShaderReader& reader = gl::read_shader);
+
+}  // namespace globe::render
