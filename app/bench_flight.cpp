@@ -167,6 +167,9 @@ std::vector<BenchmarkEntry> flight_benchmarks(int rounds) {
     const std::string name = "render.draw_list.detail" + std::to_string(detail);
     entries.push_back({name, [=] { return draw_list_benchmark(name, world(), detail); }});
   }
+  Settings hexagon = Settings::for_detail(64);
+  hexagon.windows = globe::clipmap::Windows::kHexagon;
+  add("fly.detail64.hexagon", hexagon);
   entries.push_back({"fly.raw_gl", [=] {
                        auto raw = std::make_shared<RawRun>(world());
                        return Benchmark{"fly.raw_gl", 1, [raw] { raw->draw_next(); }};
