@@ -116,6 +116,11 @@ void run(const BenchOptions& options) {
     print_ratio(results, "fly.detail64", "fly.raw_gl");
     print_ratio(results, "fly.uploads", "fly.no_uploads");
     print_tail_ratio(results, "fly.uploads", "fly.no_uploads");
+    for (const std::string plain : {"fly.detail64", "draw.vertices"}) {
+      for (const BenchmarkResult& result : results) {
+        if (result.name.starts_with(plain + ".")) print_ratio(results, result.name, plain);
+      }
+    }
   }
 }
 

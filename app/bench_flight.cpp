@@ -92,6 +92,25 @@ struct FlightRun {
   int round = 0;
 };
 
+/// A complete frame near the ground, again and again, on so small a picture that what is measured is vertices
+/// and our own work.
+struct StillRun {
+  StillRun(std::shared_ptr<World> shared, const Settings& settings)
+      : world(std::move(shared)), renderer(world->surface, FlightRun::ground(settings)), target(64, 36) {
+    renderer.warm_up(target);
+    draw();
+  }
+
+  void draw() {
+    renderer.draw(world->camera(world->rounds - 1), world->sun, true, target);
+    glFinish();
+  }
+
+  std::shared_ptr<World> world;
+  render::GlobeRenderer renderer;
+  globe::gl::Framebuffer target;
+};
+
 /// For every round as many triangles as the flight at detail 64 draws in it, in steps of 4 blocks.
 struct RawRun {
   explicit RawRun(std::shared_ptr<World> shared) : world(std::move(shared)) {
@@ -149,11 +168,23 @@ std::vector<BenchmarkEntry> flight_benchmarks(int rounds) {
   };
   for (const int detail : {32, 64, 128})
     add("fly.detail" + std::to_string(detail), Settings::for_detail(detail));
+  const auto add_still = [&](const std::string& name, const Settings& settings) {
+    entries.push_back({name, [=] {
+                         auto still = std::make_shared<StillRun>(world(), settings);
+                         return Benchmark{name, 1, [still] { still->draw(); }};
+                       }});
+  };
+  Settings settings = Settings::for_detail(64);
+  add_still("draw.vertices", settings);
   for (const Positions positions : {Positions::kQuadratic, Positions::kChord, Positions::kFloat32}) {
-    Settings settings = Settings::for_detail(64);
     settings.positions = positions;
     add("fly.detail64." + std::string(globe::clipmap::name_of(positions)), settings);
+    add_still("draw.vertices." + std::string(globe::clipmap::name_of(positions)), settings);
   }
+  settings.positions = Positions::kExact;
+  settings.windows = globe::clipmap::Windows::kHexagon;
+  add("fly.detail64.hexagon", settings);
+  add_still("draw.vertices.hexagon", settings);
   // The same frames with uploads and without any.
   add("fly.uploads", Settings::for_detail(64));
   entries.push_back({"fly.no_uploads", [=] {

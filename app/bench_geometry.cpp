@@ -131,9 +131,10 @@ Benchmark vertex_positions() {
 }
 
 /// The nodes that come in when the camera has moved by one step of level 16, tiles under them already made.
-Benchmark strip_update() {
+Benchmark strip_update(const std::string& name, clipmap::Windows windows) {
   auto surface = planet::Surface::builtin(1);
-  const clipmap::Settings settings = clipmap::Settings::for_detail(64);
+  clipmap::Settings settings = clipmap::Settings::for_detail(64);
+  settings.windows = windows;
   const dvec3 u = globe::geo::normal_from_degrees(20.0, 30.0);
   clipmap::GridPoint point = clipmap::nadir(u, 16);
   auto from = std::make_shared<clipmap::LevelUpdate>(
@@ -141,8 +142,7 @@ Benchmark strip_update() {
   point.at.i += settings.unit() * clipmap::kSubcell;
   const clipmap::Region moved = clipmap::make_region(settings, point);
   clipmap::update_level(settings, *surface, moved, {}, from->data.get());
-  return {"clipmap.strip_update.l16", 1,
-          [=] { clipmap::update_level(settings, *surface, moved, {}, from->data.get()); }};
+  return {name, 1, [=] { clipmap::update_level(settings, *surface, moved, {}, from->data.get()); }};
 }
 
 /// The vertices of a level filled from nothing, tiles under them already made.
@@ -217,7 +217,10 @@ std::vector<BenchmarkEntry> geometry_benchmarks() {
           {"planet.directions.tile", vertex_positions},
           {"planet.ground_tile.l12", [] { return ground_tile(12); }},
           {"planet.ground_tile.l22", [] { return ground_tile(22); }},
-          {"clipmap.strip_update.l16", strip_update},
+          {"clipmap.strip_update.l16",
+           [] { return strip_update("clipmap.strip_update.l16", clipmap::Windows::kPlain); }},
+          {"clipmap.strip_update.l16.hexagon",
+           [] { return strip_update("clipmap.strip_update.l16.hexagon", clipmap::Windows::kHexagon); }},
           {"clipmap.vertex_fill.l16.exact", [] { return vertex_fill(clipmap::Positions::kExact); }},
           {"clipmap.vertex_fill.l16.quadratic", [] { return vertex_fill(clipmap::Positions::kQuadratic); }},
           {"clipmap.vertex_fill.l16.chord", [] { return vertex_fill(clipmap::Positions::kChord); }},

@@ -45,16 +45,13 @@ glm::ivec2 Torus::texel(int i, int j) const {
 }
 
 std::vector<Torus::Piece> Torus::pieces(const NodeRect& nodes) const {
+  if (shift == 0) return {{nodes, nodes.i0, nodes.j0}};
   std::vector<Piece> result;
   for (int j = nodes.j0; j <= nodes.j1;) {
-    const int last_j = std::min(nodes.j1, (floor_divide(j, height) + 1) * height - 1);
-    for (int i = nodes.i0; i <= nodes.i1;) {
-      const glm::ivec2 at = texel(i, j);
-      const int last_i = std::min(nodes.i1, i + width - at.x - 1);
-      result.push_back({{i, last_i, j, last_j}, at});
-      i = last_i + 1;
-    }
-    j = last_j + 1;
+    const int wraps = floor_divide(j, height);
+    const int last = std::min(nodes.j1, (wraps + 1) * height - 1);
+    result.push_back({{nodes.i0, nodes.i1, j, last}, nodes.i0 - wraps * shift, j});
+    j = last + 1;
   }
   return result;
 }

@@ -34,12 +34,13 @@ struct Torus {
 
   glm::ivec2 texel(int i, int j) const;
 
-  /// A rectangle of nodes that is one of texels too.
+  /// A rectangle of nodes that is one of texels of the plain torus of this size: texel (x mod width, y mod
+  /// height) and on.
   struct Piece {
     NodeRect nodes;
-    glm::ivec2 texel;  ///< of its first node
+    int x = 0, y = 0;  ///< of its first node
   };
-  /// A rectangle as such pieces. REQUIRES: no wider than the torus.
+  /// A rectangle cut where its rows leave one row of bricks for the next.
   std::vector<Piece> pieces(const NodeRect& nodes) const;
 
   /// Whether no two nodes out of both sets share a texel unless they are the same.

@@ -11,18 +11,13 @@ namespace {
 
 using clipmap::LevelData;
 using clipmap::NodeRect;
+using clipmap::Torus;
 using planet::kDiamonds;
 
 /// A camera away from diamond edges needs one a level, four for the base level, and some for what is loading.
 constexpr int kFirstLayers = 28;
 
-/// True when a torus of `side` texels holds both rectangles without one overwriting the other.
-bool fit_together(const NodeRect& a, const NodeRect& b, int side) {
-  return std::max(a.i1, b.i1) - std::min(a.i0, b.i0) < side &&
-         std::max(a.j1, b.j1) - std::min(a.j0, b.j0) < side;
-}
-
-NodeRect whole_torus(int side) { return {0, side - 1, 0, side - 1}; }
+NodeRect all_texels(const Torus& torus) { return {0, torus.width - 1, 0, torus.height - 1}; }
 
 constexpr std::size_t kLitBytes = sizeof(glm::u8vec4) + sizeof(std::uint8_t);
 constexpr std::size_t kKnotBytes = 2 * sizeof(glm::vec4);
@@ -32,13 +27,14 @@ std::size_t vertex_bytes(const clipmap::Settings& settings) {
 }
 
 std::vector<LayerPool::Plane> vertex_planes(const clipmap::Settings& settings) {
-  const int side = settings.window();
-  if (!clipmap::is_interpolated(settings.positions)) return {{GL_RGBA32F, side}, {GL_RGBA32F, side}};
-  return {{GL_R32F, side}, {GL_RGBA32F, side / settings.knot_step(), 2}};
+  const Torus torus = settings.vertex_torus();
+  if (!clipmap::is_interpolated(settings.positions)) return {{GL_RGBA32F, torus}, {GL_RGBA32F, torus}};
+  return {{GL_R32F, torus}, {GL_RGBA32F, Torus::square(settings.window() / settings.knot_step()), 2}};
 }
 
 std::vector<LayerPool::Plane> shading_planes(const clipmap::Settings& settings) {
-  return {{GL_RGBA8, settings.shading_window()}, {GL_R8, settings.shading_window()}};
+  const Torus torus = Torus::square(settings.shading_window());
+  return {{GL_RGBA8, torus}, {GL_R8, torus}};
 }
 
 }  // namespace
@@ -118,9 +114,9 @@ ClipmapTextures::Layers ClipmapTextures::kept_layers(const LevelData& next, int 
   if (&drawn == &next || !loading_->beside_drawn) return found->second;
   const auto k = static_cast<std::size_t>(d);
   Layers kept;
-  if (drawn.anchor == next.anchor && fit_together(drawn.vertices[k], next.vertices[k], vertices_.side(0)))
+  if (drawn.anchor == next.anchor && vertices_.torus(0).holds_both(drawn.footprint[k], next.footprint[k]))
     kept.vertices = found->second.vertices;
-  if (drawn.lighting == next.lighting && fit_together(drawn.shading[k], next.shading[k], shading_.side(0)))
+  if (drawn.lighting == next.lighting && shading_.torus(0).holds_both({drawn.shading[k]}, {next.shading[k]}))
     kept.shading = found->second.shading;
   return kept;
 }
@@ -154,19 +150,19 @@ void ClipmapTextures::assign_layers() {
   const auto make_larger = [&](UploadJob::Kind kind, const LayerPool& pool) {
     for (int plane = 0; plane < static_cast<int>(pool.planes()); ++plane) {
       const auto k = static_cast<std::size_t>(plane);
-      queue_.add({kind, plane, whole_torus(pool.side(k)), pool.grown_texel_bytes(k), nullptr, nullptr, 0});
+      queue_.add({kind, plane, all_texels(pool.torus(k)), pool.grown_texel_bytes(k), nullptr, nullptr, 0});
     }
   };
   if (vertices_.reserve(fresh_vertices)) {
     make_larger(UploadJob::Kind::kGrowVertices, vertices_);
     for (const auto& [share, kept] : loading_->layers) {
-      if (kept.vertices >= 0) copy_vertices(kept.vertices, kept.vertices, whole_torus(vertices_.side(0)));
+      if (kept.vertices >= 0) copy_vertices(kept.vertices, kept.vertices, all_texels(vertices_.torus(0)));
     }
   }
   if (shading_.reserve(fresh_shading)) {
     make_larger(UploadJob::Kind::kGrowShading, shading_);
     for (const auto& [share, kept] : loading_->layers) {
-      if (kept.shading >= 0) copy_shading(kept.shading, kept.shading, whole_torus(shading_.side(0)));
+      if (kept.shading >= 0) copy_shading(kept.shading, kept.shading, all_texels(shading_.torus(0)));
     }
   }
 }
@@ -200,10 +196,10 @@ void ClipmapTextures::queue_copies() {
     // What stays of a level that goes on in another layer; an update brings the rest.
     if (layers.vertices < 0) {
       layers.vertices = vertices_.acquire();
-      const NodeRect stays = drawn != nullptr && drawn->anchor == next.anchor
-                                 ? intersect(drawn->vertices[k], next.vertices[k])
-                                 : NodeRect{};
-      if (!stays.empty()) copy_vertices(layers.vertices, old->second.vertices, stays);
+      if (drawn != nullptr && drawn->anchor == next.anchor) {
+        for (const NodeRect& stays : intersect(drawn->footprint[k], next.footprint[k]))
+          copy_vertices(layers.vertices, old->second.vertices, stays);
+      }
     }
     if (layers.shading < 0) {
       layers.shading = shading_.acquire();
@@ -296,6 +292,11 @@ void ClipmapTextures::bind() const {
 }
 
 std::vector<std::string> ClipmapTextures::defines() const {
+  if (settings_.windows == clipmap::Windows::kHexagon) {
+    const Torus torus = settings_.vertex_torus();
+    return {"BRICK ivec3(" + std::to_string(torus.width) + ", " + std::to_string(torus.height) + ", " +
+            std::to_string(torus.shift) + ")"};
+  }
   if (!clipmap::is_interpolated(settings_.positions)) return {};
   return {"KNOTS_A_PATCH " + std::to_string(settings_.m / settings_.knot_step()),
           "KNOT_STEP " + std::to_string(settings_.knot_step())};

@@ -18,8 +18,8 @@ namespace globe::render {
 ///
 /// Bytes of a layer of vertices: 2 · 16 w², of shading: 5 (w·2^k)²; w the side of the vertex window and k the
 /// shading levels. Where positions are interpolated there are heights and knots in place of positions, 4 w² +
-/// 2 · 16 (w/q)² bytes, q being the cells between knots. Layers come from pools that grow when they are
-/// empty.
+/// 2 · 16 (w/q)² bytes, q being the cells between knots. Hexagons of positions take 2 · 16 (3S + 1)(S + 1)
+/// bytes, S = s + 3m/2 - 1. Layers come from pools that grow when they are empty.
 ///
 /// One state is drawn while the next one is loading: its uploads may take any number of frames, and touch no
 /// texel that the drawn one needs. What came in goes beside what is there where the torus has room for both

@@ -141,8 +141,8 @@ DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::Clipma
                               level == finest && level > settings.base_level ? fade : 0.0f);
       const int coarse_slot =
           level == settings.base_level ? static_cast<int>(list.slots.size()) : slot_of[slot_of.size() - 2][k];
-      slot.torus = {modulo(rect.i0, settings.window()), modulo(rect.j0, settings.window()),
-                    textures.vertex_layer(level, d), coarse_slot};
+      const glm::ivec2 first = settings.vertex_torus().texel(rect.i0, rect.j0);
+      slot.torus = {first.x, first.y, textures.vertex_layer(level, d), coarse_slot};
       const auto images = relative_images(clipmap::images(nadir, d), rect);
       slot.images_a = {images[0], images[1]};
       slot.images_b = {images[2], images[3]};

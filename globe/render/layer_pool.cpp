@@ -1,6 +1,7 @@
 #include "globe/render/layer_pool.h"
 
 #include <cassert>
+#include <cstddef>
 #include <utility>
 
 namespace globe::render {
@@ -8,8 +9,8 @@ namespace {
 
 constexpr int kGrowth = 4;  ///< layers: arrays grow by multiples of it
 
-gl::TexelBox box_of(const clipmap::NodeRect& rect, int layer) {
-  return {rect.i0, rect.j0, rect.width(), rect.height(), layer};
+gl::TexelBox box_of(const clipmap::Torus::Piece& piece, int layer) {
+  return {piece.x, piece.y, piece.nodes.width(), piece.nodes.height(), layer};
 }
 
 std::size_t bytes_of(const std::vector<gl::Texture>& textures) {
@@ -27,7 +28,8 @@ LayerPool::LayerPool(std::vector<Plane> planes, GLenum filter, int layers)
 }
 
 gl::Texture LayerPool::make(const Plane& plane, int layers) const {
-  gl::Texture texture = gl::Texture::array(plane.format, plane.side, plane.side, plane.each * layers);
+  gl::Texture texture =
+      gl::Texture::array(plane.format, plane.torus.width, plane.torus.height, plane.each * layers);
   texture.set_filter(filter_, filter_);
   texture.set_wrap(GL_REPEAT);
   return texture;
@@ -71,15 +73,23 @@ void LayerPool::abandon_growth() {
 
 void LayerPool::upload(std::size_t plane, int layer, int which, const clipmap::NodeRect& nodes,
                        const void* texels, int row_length) {
-  written()[plane].upload_wrapped(box_of(nodes, planes_[plane].each * layer + which), texels, row_length);
+  const std::size_t row_bytes =
+      static_cast<std::size_t>(row_length) * gl::pixel_layout(planes_[plane].format).bytes_per_texel;
+  for (const clipmap::Torus::Piece& piece : planes_[plane].torus.pieces(nodes)) {
+    const auto rows = static_cast<std::size_t>(piece.nodes.j0 - nodes.j0);
+    written()[plane].upload_wrapped(box_of(piece, planes_[plane].each * layer + which),
+                                    static_cast<const std::byte*>(texels) + rows * row_bytes, row_length);
+  }
 }
 
 void LayerPool::copy_from_current(std::size_t plane, int layer, int from_layer,
                                   const clipmap::NodeRect& nodes) {
   const int each = planes_[plane].each;
-  for (int which = 0; which < each; ++which) {
-    written()[plane].copy_wrapped(current_[plane], each * from_layer + which,
-                                  box_of(nodes, each * layer + which));
+  for (const clipmap::Torus::Piece& piece : planes_[plane].torus.pieces(nodes)) {
+    for (int which = 0; which < each; ++which) {
+      written()[plane].copy_wrapped(current_[plane], each * from_layer + which,
+                                    box_of(piece, each * layer + which));
+    }
   }
 }
 

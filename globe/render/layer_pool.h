@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "globe/clipmap/region.h"
+#include "globe/clipmap/torus.h"
 #include "globe/gl/texture.h"
 
 namespace globe::render {
@@ -18,7 +18,7 @@ class LayerPool {
   /// One of the array textures.
   struct Plane {
     GLenum format;
-    int side;      ///< of a window, texels
+    clipmap::Torus torus;
     int each = 1;  ///< layers of the texture for a layer of the pool
   };
 
@@ -52,7 +52,7 @@ class LayerPool {
   /// The textures in use.
   const gl::Texture& texture(std::size_t plane) const { return current_[plane]; }
   std::size_t planes() const { return planes_.size(); }
-  int side(std::size_t plane) const { return planes_[plane].side; }
+  const clipmap::Torus& torus(std::size_t plane) const { return planes_[plane].torus; }
   int layers() const { return layers_; }
   /// Of all textures, those of a growth included.
   std::size_t bytes() const;

@@ -94,7 +94,7 @@ std::array<Errors, 3> errors_of(const Settings& settings) {
   MeshProbe probe(surface, settings);
   std::array<Errors, 3> errors;
   std::mt19937_64 random(10);
-  const std::size_t cameras = hard::full() ? 200 : 12;
+  const std::size_t cameras = hard::full() ? 90 : 12;
   for (std::size_t k = 0; k < cameras; ++k) {
     const auto [camera, above] = views::tour_stop(*surface, k, cameras, random);
     const std::size_t band = above < kBands[0].below_m ? 0 : above < kBands[1].below_m ? 1 : 2;

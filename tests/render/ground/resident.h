@@ -8,17 +8,19 @@
 
 namespace views {
 
-/// Texels of a rectangle of a toroidal layer, in the order of the nodes.
+/// Texels of rectangles of a toroidal layer, in the order of the nodes.
 template <class T>
-std::vector<T> resident(const globe::gl::Texture& texture, const globe::clipmap::NodeRect& rect, int layer) {
+std::vector<T> resident(const globe::gl::Texture& texture, const globe::clipmap::Torus& torus,
+                        const std::vector<globe::clipmap::NodeRect>& rects, int layer) {
   const auto all = texture.read<T>({0, 0, texture.width(), texture.height(), layer});
   std::vector<T> texels;
-  const auto wrapped = [](int x, int n) { return (x % n + n) % n; };
-  for (int j = rect.j0; j <= rect.j1; ++j) {
-    for (int i = rect.i0; i <= rect.i1; ++i) {
-      texels.push_back(
-          all[static_cast<std::size_t>(wrapped(j, texture.height())) * std::size_t(texture.width()) +
-              static_cast<std::size_t>(wrapped(i, texture.width()))]);
+  for (const globe::clipmap::NodeRect& rect : rects) {
+    for (int j = rect.j0; j <= rect.j1; ++j) {
+      for (int i = rect.i0; i <= rect.i1; ++i) {
+        const glm::ivec2 at = torus.texel(i, j);
+        texels.push_back(all[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(texture.width()) +
+                             static_cast<std::size_t>(at.x)]);
+      }
     }
   }
   return texels;
@@ -46,6 +48,7 @@ struct Resident {
 
 inline Resident resident(const globe::clipmap::Settings& settings, const globe::clipmap::ClipmapState& state,
                          const globe::render::ClipmapTextures& textures) {
+  using globe::clipmap::Torus;
   Resident all;
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   for (const auto& level : state.levels) {
@@ -55,22 +58,25 @@ inline Resident resident(const globe::clipmap::Settings& settings, const globe::
       const int v = textures.vertex_layer(level->region.level, d);
       const int s = textures.shading_layer(level->region.level, d);
       if (v < 0) continue;
-      const globe::clipmap::NodeRect& nodes = level->vertices[k];
+      const Torus torus = settings.vertex_torus();
+      const Torus shading = Torus::square(settings.shading_window());
+      const std::vector<globe::clipmap::NodeRect>& nodes = level->footprint[k];
       if (globe::clipmap::is_interpolated(settings.positions)) {
         const int step = settings.knot_step();
-        append(all.heights, resident<float>(textures.positions(), nodes, v));
+        const globe::clipmap::NodeRect& all_nodes = level->vertices[k];
+        append(all.heights, resident<float>(textures.positions(), torus, nodes, v));
         for (const int kind : {0, 1}) {
-          append(all.vertices,
-                 resident<glm::vec4>(textures.coarse(),
-                                     {nodes.i0 / step, nodes.i1 / step, nodes.j0 / step, nodes.j1 / step},
-                                     2 * v + kind));
+          append(all.vertices, resident<glm::vec4>(textures.coarse(), Torus::square(settings.window() / step),
+                                                   {{all_nodes.i0 / step, all_nodes.i1 / step,
+                                                     all_nodes.j0 / step, all_nodes.j1 / step}},
+                                                   2 * v + kind));
         }
       } else {
-        append(all.vertices, resident<glm::vec4>(textures.positions(), nodes, v));
-        append(all.vertices, resident<glm::vec4>(textures.coarse(), nodes, v));
+        append(all.vertices, resident<glm::vec4>(textures.positions(), torus, nodes, v));
+        append(all.vertices, resident<glm::vec4>(textures.coarse(), torus, nodes, v));
       }
-      append(all.lit, resident<glm::u8vec4>(textures.lit(), level->shading[k], s));
-      append(all.water, resident<std::uint8_t>(textures.water(), level->shading[k], s));
+      append(all.lit, resident<glm::u8vec4>(textures.lit(), shading, {level->shading[k]}, s));
+      append(all.water, resident<std::uint8_t>(textures.water(), shading, {level->shading[k]}, s));
     }
   }
   return all;

@@ -7,11 +7,14 @@
 #include "tests/hard/directions.h"
 #include "tests/hard/table.h"
 #include "tests/render/ground/resident.h"
+#include "tests/render/ground/shader_variant.h"
 #include "tests/render/ground/views.h"
 
 namespace {
 
+using globe::clipmap::Positions;
 using globe::clipmap::Settings;
+using globe::clipmap::Windows;
 using globe::gl::Framebuffer;
 using globe::render::ClipmapTextures;
 using globe::render::FrameStats;
@@ -80,7 +83,7 @@ TEST_F(GlTest, H24TheSameCameraGivesTheSameBytes) {
 TEST_F(GlTest, H12PicturesAreTheSameWithoutCulling) {
   const auto surface = views::builtin_planet();
   const Framebuffer picture(320, 180);
-  for (const auto positions : {globe::clipmap::Positions::kExact, globe::clipmap::Positions::kChord}) {
+  for (const auto positions : {Positions::kExact, Positions::kChord}) {
     RenderSettings settings = full_settings();
     settings.clipmap = Settings::for_detail(32, 1);
     settings.clipmap.positions = positions;
@@ -153,26 +156,92 @@ Walked walk(const Settings& settings, std::size_t stride) {
   return sum;
 }
 
+/// Ways to store vertices, and how many of the hard places to walk from for each.
+struct Storage {
+  Positions positions;
+  Windows windows;
+  std::size_t stride;
+
+  Settings settings(int detail, int shading_levels) const {
+    Settings result = Settings::for_detail(detail, shading_levels);
+    result.positions = positions;
+    result.windows = windows;
+    return result;
+  }
+  std::string text() const {
+    return "--positions " + std::string(name_of(positions)) + " --window " + std::string(name_of(windows));
+  }
+};
+constexpr std::array kStorages{Storage{Positions::kExact, Windows::kPlain, 1},
+                               Storage{Positions::kQuadratic, Windows::kPlain, 4},
+                               Storage{Positions::kExact, Windows::kHexagon, 3}};
+
 TEST_F(GlTest, H18WindowsAfterAnyWalkHoldWhatARefillWould) {
-  for (const auto positions : {globe::clipmap::Positions::kExact, globe::clipmap::Positions::kQuadratic}) {
-    Settings settings = Settings::for_detail(16, 1);
-    settings.positions = positions;
-    const Walked sum = walk(settings, positions == globe::clipmap::Positions::kExact ? 1 : 3);
+  for (const Storage& storage : kStorages) {
+    const Walked sum = walk(storage.settings(16, 1), hard::full() ? 1 : storage.stride);
     hard::report("H18",
-                 "texels that differ from a refill after walks of " + std::to_string(sum.moves) +
-                     " moves, --positions " + std::string(globe::clipmap::name_of(positions)) + ", " +
-                     std::to_string(sum.texels),
+                 "texels that differ from a refill after walks of " + std::to_string(sum.moves) + " moves, " +
+                     storage.text() + ", " + std::to_string(sum.texels),
                  "0", std::to_string(sum.different_texels));
     EXPECT_EQ(sum.different_texels, 0u);
   }
+}
+
+/// Bytes of pictures that differ between plain windows and hexagons, seen on a tour of both.
+std::size_t changed_by_hexagons(int detail, std::size_t cameras, const Settings& hexagon) {
+  const auto surface = views::builtin_planet();
+  const Framebuffer picture(320, 180);
+  RenderSettings settings = full_settings();
+  settings.clipmap = Settings::for_detail(detail, 0);
+  GlobeRenderer plain(surface, settings);
+  settings.clipmap = hexagon;
+  GlobeRenderer packed(surface, settings);
+  std::size_t different_bytes = 0;
+  for (const Camera& camera : tour(plain, cameras)) {
+    Camera walking = camera;
+    for (int step = 0; step < 3; ++step) {  // and on from there, by steps of some level
+      const Bytes first = picture_of(plain, walking, picture);
+      different_bytes += different(first, picture_of(packed, walking, picture));
+      walking.position += (camera.right + camera.forward * 0.3) * 0.02 * glm::length(camera.position) *
+                          std::exp2(-5.0 * step);
+    }
+  }
+  return different_bytes;
+}
+
+TEST_F(GlTest, HexagonsShowTheSamePicturesBitForBit) {
+  for (const int detail : {16, 28}) {
+    Settings hexagon = Settings::for_detail(detail, 0);
+    hexagon.windows = Windows::kHexagon;
+    const std::size_t cameras = hard::full() ? 48 : 4;
+    const std::size_t different_bytes = changed_by_hexagons(detail, cameras, hexagon);
+    hard::report("windows",
+                 "bytes of pictures that hexagons change, detail " + std::to_string(detail) + ", " +
+                     std::to_string(3 * cameras) + " pictures",
+                 "0", std::to_string(different_bytes));
+    EXPECT_EQ(different_bytes, 0u);
+  }
+}
+
+TEST_F(GlTest, HexagonsNegativeControlAnotherShiftShowsOtherPictures) {
+  const views::ShaderVariant shifted("lib/clipmap.glsl", "texel.x - wraps * brick.z",
+                                     "texel.x - wraps * (brick.z - 1)");
+  Settings hexagon = Settings::for_detail(16, 0);
+  hexagon.windows = Windows::kHexagon;
+  const std::size_t different_bytes = changed_by_hexagons(16, 3, hexagon);
+  hard::report("windows", "negative control: bricks shifted by one texel less, bytes", "> 0",
+               std::to_string(different_bytes));
+  EXPECT_GT(different_bytes, 0u);
 }
 
 std::size_t layer_formula(const Settings& settings) {
   const auto w = static_cast<std::size_t>(settings.window());
   const std::size_t shading = w << settings.shading_levels;
   const std::size_t knots = w / static_cast<std::size_t>(settings.knot_step());
+  const auto side = static_cast<std::size_t>(settings.s + 3 * settings.m / 2 - 1);
+  const std::size_t texels = settings.windows == Windows::kHexagon ? (3 * side + 1) * (side + 1) : w * w;
   const bool interpolated = globe::clipmap::is_interpolated(settings.positions);
-  return (interpolated ? 4 * w * w + 2 * 16 * knots * knots : 2 * 16 * w * w) + 5 * shading * shading;
+  return (interpolated ? 4 * texels + 2 * 16 * knots * knots : 2 * 16 * texels) + 5 * shading * shading;
 }
 
 TEST_F(GlTest, ClipmapMemoryIsWhatItsFormulaSays) {
@@ -193,16 +262,12 @@ TEST_F(GlTest, ClipmapMemoryIsWhatItsFormulaSays) {
       "memory",
       "bytes of the clipmap's textures in a flight, detail 16, against layers * (32 w^2 + 5 (4w)^2)", "equal",
       std::to_string(most) + " B in " + std::to_string(renderer.textures().vertex_layers()) + " layers");
-  for (const auto positions : {globe::clipmap::Positions::kExact, globe::clipmap::Positions::kQuadratic,
-                               globe::clipmap::Positions::kChord, globe::clipmap::Positions::kFloat32}) {
-    Settings settings = Settings::for_detail(64);
-    settings.positions = positions;
+  for (const Storage& storage : kStorages) {
+    const Settings settings = storage.settings(64, 2);
     const ClipmapTextures textures(settings);
     EXPECT_EQ(textures.layer_bytes(), layer_formula(settings));
-    hard::report(
-        "memory",
-        "bytes of a layer at detail 64, --positions " + std::string(globe::clipmap::name_of(positions)),
-        "its formula", std::to_string(textures.layer_bytes()));
+    hard::report("memory", "bytes of a layer at detail 64, " + storage.text(), "its formula",
+                 std::to_string(textures.layer_bytes()));
   }
 }
 

@@ -90,12 +90,14 @@ std::pair<Disturbed, Disturbed> disturbed(const Settings& settings, std::size_t 
 }
 
 TEST_F(GlTest, WhatIsDrawnStaysUntouchedWhileTheNextStateIsLoading) {
-  for (const auto positions : {globe::clipmap::Positions::kExact, globe::clipmap::Positions::kQuadratic}) {
-    Settings settings = Settings::for_detail(16, 1);
-    settings.positions = positions;
-    const bool exact = positions == globe::clipmap::Positions::kExact;
-    const auto [at_piece, at_once] = disturbed(settings, hard::full() ? 1 : exact ? 4 : 8);
-    const std::string how = ", --positions " + std::string(globe::clipmap::name_of(positions));
+  Settings exact = Settings::for_detail(16, 1), quadratic = exact, hexagon = exact;
+  quadratic.positions = globe::clipmap::Positions::kQuadratic;
+  hexagon.windows = globe::clipmap::Windows::kHexagon;
+  for (const Settings& settings : {exact, quadratic, hexagon}) {
+    const bool interpolated = globe::clipmap::is_interpolated(settings.positions);
+    const auto [at_piece, at_once] = disturbed(settings, hard::full() ? 1 : interpolated ? 8 : 4);
+    const std::string how = ", --positions " + std::string(name_of(settings.positions)) + " --window " +
+                            std::string(name_of(settings.windows));
     hard::report("loading",
                  "texels of the drawn state that change while the next one is loading" + how + ", " +
                      std::to_string(at_piece.looked_at) + " looked at between " +
@@ -255,9 +257,9 @@ std::size_t wrong_vertices(const GlobeRenderer& renderer, int finest) {
     for (int d = 0; d < globe::planet::kDiamonds; ++d) {
       const auto k = static_cast<std::size_t>(d);
       if (level->vertices[k].empty()) continue;
-      const auto texels =
-          views::resident<glm::vec4>(renderer.textures().positions(), level->vertices[k],
-                                     renderer.textures().vertex_layer(level->region.level, d));
+      const auto texels = views::resident<glm::vec4>(
+          renderer.textures().positions(), renderer.clipmap_settings().vertex_torus(), {level->vertices[k]},
+          renderer.textures().vertex_layer(level->region.level, d));
       for (std::size_t v = 0; v < texels.size(); ++v) wrong += texels[v] == level->positions[k][v] ? 0 : 1;
     }
   }

@@ -61,7 +61,8 @@ TEST(Torus, PiecesHoldEveryNodeOnceAtItsTexel) {
         for (int j = piece.nodes.j0; j <= piece.nodes.j1; ++j) {
           for (int i = piece.nodes.i0; i <= piece.nodes.i1; ++i) {
             EXPECT_TRUE(seen.insert({i, j}).second);
-            ASSERT_EQ(torus.texel(i, j), piece.texel + glm::ivec2(i - piece.nodes.i0, j - piece.nodes.j0));
+            ASSERT_EQ(torus.texel(i, j), (Torus{torus.width, torus.height, 0}.texel(
+                                             piece.x + i - piece.nodes.i0, piece.y + j - piece.nodes.j0)));
           }
         }
       }
