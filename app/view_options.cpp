@@ -85,7 +85,7 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
   command
       .add_option(
           "--window", options.window,
-          "how vertices lie in GPU memory: plain squares; or hexagon, a fifth less for the same picture")
+          "how vertices lie in GPU memory: plain squares; or hexagon, 6 % less in all, the same picture")
       ->capture_default_str();
   command.add_flag("--overwrite", options.overwrite, "replace existing output");
   command.add_flag("--quiet", options.quiet, "warnings and errors only");

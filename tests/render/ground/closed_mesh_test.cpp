@@ -84,8 +84,8 @@ TEST_F(GlTest, H15TheMeshIsClosedWithoutMorphing) {
   Settings settings = Settings::for_detail(16, 0);
   settings.morph = false;
   const Sum sum = meshes(settings, globe::gl::read_shader, hard::full() ? 12 : 4);
-  hard::report("H15", "edges not used exactly twice, --morph off, " + std::to_string(sum.edges) + " edges", "0",
-               std::to_string(sum.open_edges));
+  hard::report("H15", "edges not used exactly twice, --morph off, " + std::to_string(sum.edges) + " edges",
+               "0", std::to_string(sum.open_edges));
   EXPECT_EQ(sum.open_edges, 0u);
   EXPECT_EQ(sum.not_a_sphere, 0u);
 }
