@@ -53,7 +53,8 @@ Study study_of(const char* name, const char* title, const char* knob, const std:
               "us a cover",
               {}};
   const double cap = 2.0 * std::numbers::pi * (1.0 - std::cos(kRadius_deg * std::numbers::pi / 180.0));
-  for (const auto& [label, cover] : settings) {
+  for (const auto& labelled : settings) {
+    const CoverSettings cover = labelled.second;
     ErrorSum sum;
     std::size_t ranges = 0;
     for (std::size_t k = 0; k < at.size(); ++k) {
@@ -69,8 +70,8 @@ Study study_of(const char* name, const char* title, const char* knob, const std:
           keep(static_cast<double>(all));
         },
         1e3);
-    study.settings.push_back(
-        {label, sum.figure(), cost, false, std::to_string(ranges / at.size()) + " ranges on average"});
+    study.settings.push_back({labelled.first, sum.figure(), cost, false,
+                              std::to_string(ranges / at.size()) + " ranges on average"});
   }
   return study;
 }
@@ -82,7 +83,7 @@ std::vector<Study> cover_studies(const Scope& scope) {
   std::vector<std::pair<std::string, CoverSettings>> levels, limits;
   for (int level = 6; level <= (scope.full ? 14 : 12); ++level)
     levels.push_back({"level " + std::to_string(level), {.level = level}});
-  for (const std::size_t limit : {4, 8, 16, 32, 64, 128, 256})
+  for (const std::size_t limit : {4U, 8U, 16U, 32U, 64U, 128U, 256U})
     limits.push_back({std::to_string(limit) + " ranges", {.level = 20, .max_ranges = limit}});
   return {study_of("covers.level", "A cover's excess by its level", "cover --level", at, levels),
           study_of("covers.ranges", "A cover's excess by the number of its ranges, level 20",

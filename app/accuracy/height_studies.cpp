@@ -55,9 +55,10 @@ std::vector<Study> height_studies(const Scope& scope) {
         "m",
         "ns a place",
         {}};
-    for (const auto& [name, interpolation] :
+    for (const auto& way :
          {std::pair{"nearest", Interpolation::kNearest}, std::pair{"linear", Interpolation::kLinear},
           std::pair{"cubic", Interpolation::kCubic}}) {
+      const Interpolation interpolation = way.second;
       const auto height = [planet, interpolation](const globe::geo::Geodetic& place) {
         return globe::planet::data_height_at(*planet->surface(),
                                              globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg),
@@ -78,7 +79,7 @@ std::vector<Study> height_studies(const Scope& scope) {
         for (const auto& place : *at) all += height(place);
         keep(static_cast<double>(all));
       });
-      study.settings.push_back({name, sum.figure(), cost, interpolation == Interpolation::kLinear});
+      study.settings.push_back({way.first, sum.figure(), cost, interpolation == Interpolation::kLinear});
     }
     studies.push_back(std::move(study));
   }

@@ -38,7 +38,7 @@ std::optional<Stretch> inside(const Ray& ray, const dvec3& centre, double radius
 }  // namespace
 
 DrawnSurface::DrawnSurface(const Settings& settings, std::shared_ptr<const planet::Surface> surface,
-                           std::shared_ptr<const ClipmapState> state, int finest, float fade)
+                           const std::shared_ptr<const ClipmapState>& state, int finest, float fade)
     : settings_(settings),
       surface_(std::move(surface)),
       mesh_(make_patch_mesh(settings.m)),
@@ -144,8 +144,8 @@ DrawnSurface complete_surface(const Settings& settings, std::shared_ptr<const pl
   const FinestLevel finest = finest_level(settings, surface->root_edge(), above, max_level);
   const geo::Geodetic place = geo::geodetic_from_ecef(surface->ellipsoid(), position);
   const Target target{geo::normal_from_degrees(place.lat_deg, place.lon_deg), finest.level, {}};
-  auto state = advance(plain, *surface, target, nullptr, Stride::kWhole).state;
-  return {plain, std::move(surface), std::move(state), finest.level, finest.fade};
+  const auto state = advance(plain, *surface, target, nullptr, Stride::kWhole).state;
+  return {plain, std::move(surface), state, finest.level, finest.fade};
 }
 
 }  // namespace globe::clipmap

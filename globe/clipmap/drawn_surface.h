@@ -33,7 +33,7 @@ class DrawnSurface {
   /// @param finest  levels of the state above it are left out
   /// @param fade    morph factor the finest level has at least
   DrawnSurface(const Settings& settings, std::shared_ptr<const planet::Surface> surface,
-               std::shared_ptr<const ClipmapState> state, int finest, float fade);
+               const std::shared_ptr<const ClipmapState>& state, int finest, float fade);
 
   /// The first point of the surface on a ray, seen from outside, as faces are culled in the picture. Through
   /// no seam between triangles, patches, levels or diamonds does a ray slip.

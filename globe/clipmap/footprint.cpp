@@ -36,6 +36,7 @@ std::vector<NodeRect> footprint(const Settings& settings, const Region& region, 
     add((unit.j + 1) * cells, unit.i * cells, columns(unit.half, cells, cells, cells));
   }
   std::vector<NodeRect> rects;
+  rects.reserve(strips.size());
   for (const auto& [row, span] : strips)
     rects.push_back({span.first, span.last, row, std::min(row + rows - 1, around.j1)});
   return rects;

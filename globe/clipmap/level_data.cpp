@@ -204,7 +204,7 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
   for (const Patch& patch : data->patches) data->bounds.push_back(bound_patch(settings, *data, patch));
   // between chords of whole patches, as deep as triangles of that size would lie
   const int drawn_flat = settings.positions == Positions::kChord
-                             ? level - std::bit_width(static_cast<unsigned>(settings.m)) + 1
+                             ? level - static_cast<int>(std::bit_width(static_cast<unsigned>(settings.m))) + 1
                              : level;
   data->lowest_m = lowest_vertex(*data) - sag(surface, drawn_flat);
   update.data = std::move(data);

@@ -38,7 +38,7 @@ NodeRect knots_around(const NodeRect& nodes, int m, int knots_a_patch) {
 KnotBlock make_knots(const Settings& settings, const geo::Ellipsoid& ellipsoid, int level, int d,
                      const NodeRect& nodes, const dvec3& anchor) {
   const int step = settings.knot_step();
-  const int knot_level = level - std::bit_width(static_cast<unsigned>(step)) + 1;
+  const int knot_level = level - static_cast<int>(std::bit_width(static_cast<unsigned>(step))) + 1;
   KnotBlock block{knots_around(nodes, settings.m, settings.m / step), {}, {}};
   const NodeRect& rect = block.knots;
   const std::vector<dvec3> normals =

@@ -104,6 +104,7 @@ double Surface::root_edge() const { return ellipsoid().mean_radius() * std::numb
 void Surface::make_roots() const {
   for (int level = 0; level <= kRootLevel; ++level) {
     std::vector<SurfaceTile> tiles;
+    tiles.reserve(kDiamonds);
     for (int d = 0; d < kDiamonds; ++d) tiles.push_back(empty_tile({d, level, 0, 0}));
     const auto each = [&](auto member, auto type) {
       using T = decltype(type);
