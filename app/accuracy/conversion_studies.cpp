@@ -49,7 +49,7 @@ std::vector<Study> conversion_studies(const Scope& scope) {
     Study study = study_of("conversion.filter.l" + std::to_string(level),
                            "A map of " + std::to_string(width) + " pixels to level " + std::to_string(level) +
                                " and back, by filter",
-                           "convert --filter", truth);
+                           "--filter, --as-thesis", truth);
     for (const converters::NamedRoundTrip& method : converters::round_trip_methods()) {
       const bool is_default =
           method.method.filter == (level < own_level ? Filter::kArea : Filter::kBilinear) &&
@@ -58,7 +58,8 @@ std::vector<Study> conversion_studies(const Scope& scope) {
     }
     studies.push_back(std::move(study));
   }
-  Study levels = study_of("conversion.level", "The same by level, bilinear", "convert --level", truth);
+  Study levels =
+      study_of("conversion.level", "The same by level, bilinear", "convert --level, inset --level", truth);
   for (int level = own_level - 2; level <= own_level + (scope.full ? 3 : 2); ++level) {
     levels.settings.push_back(setting_of("level " + std::to_string(level),
                                          {Filter::kBilinear, Sampling::kLinear, false}, level, map, truth,
