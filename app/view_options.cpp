@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "app/parse_options.h"
 #include "app/planet_argument.h"
 #include "globe/base/error.h"
 #include "globe/geo/sun.h"
@@ -49,7 +50,7 @@ void add_camera_options(CLI::App& command, CameraOptions& options) {
   command.add_option("--size", options.size, "WxH in pixels")->capture_default_str();
   command.add_option("--fov", options.fov_deg, "vertical field of view, degrees")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 170.0));
+      ->check(in_range(0.01, 170.0));
   command.add_option("--time", options.time,
                      "UTC date and time of the sun, ISO 8601 (default: 10:00 local solar time, 21 March)");
   command.add_option("--detail", options.detail, "side of the hexagons in cells, 16 to 1024")
@@ -59,7 +60,7 @@ void add_camera_options(CLI::App& command, CameraOptions& options) {
       ->check(CLI::IsMember({"on", "off"}));
   command.add_option("--exaggeration", options.exaggeration, "draw heights so many times as high")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(in_range(0.0, 100.0));
 }
 
 globe::clipmap::Settings clipmap_settings(const CameraOptions& options) {
