@@ -7,15 +7,20 @@
 #include "globe/clipmap/ground_below.h"
 #include "globe/clipmap/morph.h"
 #include "globe/planet/clear_way.h"
+#include "globe/scene/camera_path.h"
+#include "globe/scene/flight_path.h"
 
 namespace app {
 namespace {
 
 namespace geo = globe::geo;
 
-constexpr int kSamples = 512;  ///< a step of the path is a hundredth of its height or so
+constexpr int kSamples = 512;     ///< a step of the path is a hundredth of its height or so
+constexpr int kPieceSamples = 8;  ///< at least, between two places of a path
+constexpr int kMostSamples = 8192;
 constexpr double kShare = 0.25;
 constexpr double kWidth = 1.0 / 12.0;
+constexpr double kLeastWidth = kWidth / 4.0;  ///< by the places of a path
 constexpr double kSharpness = 8.0;  ///< of the mean of rises: higher comes nearer to the highest of them
 
 glm::dvec3 normal(const FlightEnd& end) {
@@ -29,14 +34,38 @@ double least_clearance(const geo::Ellipsoid& ellipsoid) { return 2.0 * geo::smal
 Flight::Flight(const globe::clipmap::Settings& settings,
                std::shared_ptr<const globe::planet::Surface> surface, int max_level, const FlightEnd& from,
                const FlightEnd& to, double heading_deg, double pitch_deg)
-    : settings_(settings),
-      surface_(std::move(surface)),
-      max_level_(max_level),
-      path_(normal(from), from.above_ground_m, normal(to), to.above_ground_m,
-            surface_->ellipsoid().mean_radius(), heading_deg, pitch_deg),
-      from_ground_(ground_below(from.place)),
-      to_ground_(ground_below(to.place)) {
-  find_rises();
+    : settings_(settings), surface_(std::move(surface)), max_level_(max_level) {
+  const globe::scene::FlightPath path(normal(from), from.above_ground_m, normal(to), to.above_ground_m,
+                                      surface_->ellipsoid().mean_radius(), heading_deg, pitch_deg);
+  plan_ = [path, from_ground = ground_below(from.place), to_ground = ground_below(to.place)](double t) {
+    const globe::scene::PathPoint point = path.at(t);
+    geo::Geodetic place = geo::degrees_from_normal(point.u);
+    const double e = globe::scene::FlightPath::eased(t);
+    place.h_m = point.height_m + from_ground + (to_ground - from_ground) * e;
+    return Planned{{place, point.heading_deg, point.pitch_deg}, point.height_m};
+  };
+  find_rises({0.0, 1.0});
+}
+
+Flight::Flight(const globe::clipmap::Settings& settings,
+               std::shared_ptr<const globe::planet::Surface> surface, int max_level,
+               const globe::scene::Path& path)
+    : settings_(settings), surface_(std::move(surface)), max_level_(max_level) {
+  const globe::scene::CameraPath way(
+      globe::scene::stops_of(
+          path.keys, surface_->ellipsoid(), [&](const geo::Geodetic& place) { return ground_below(place); },
+          least_clearance(surface_->ellipsoid())),
+      path.low_pitch_deg);
+  duration_s_ = path.duration_s.value_or(way.duration_s());
+  std::vector<double> marks = way.times();
+  for (double& mark : marks) mark /= way.duration_s();
+  plan_ = [way](double t) {
+    const globe::scene::CameraPath::View view = way.at(t * way.duration_s());
+    geo::Geodetic place = geo::degrees_from_normal(view.u);
+    place.h_m = view.ground_m + view.above_m;
+    return Planned{{place, view.heading_deg, view.pitch_deg}, view.above_m};
+  };
+  find_rises(marks);
 }
 
 double Flight::ground_below(geo::Geodetic place) const {
@@ -46,26 +75,25 @@ double Flight::ground_below(geo::Geodetic place) const {
              settings_, *surface_, geo::ecef_from_geodetic(surface_->ellipsoid(), place), max_level_, true);
 }
 
-geo::Geodetic Flight::planned(double t, globe::scene::PathPoint& point) const {
-  point = path_.at(t);
-  geo::Geodetic place = geo::degrees_from_normal(point.u);
-  const double e = globe::scene::FlightPath::eased(t);
-  place.h_m = point.height_m + from_ground_ + (to_ground_ - from_ground_) * e;
-  return place;
-}
-
-void Flight::find_rises() {
-  globe::scene::PathPoint point;
-  geo::Geodetic before = planned(0.0, point);
-  for (int k = 1; k <= kSamples; ++k) {
-    const double t = static_cast<double>(k) / kSamples;
-    const geo::Geodetic place = planned(t, point);
-    const globe::planet::Clearance keep{
-        std::max(kShare * point.height_m, least_clearance(surface_->ellipsoid())),
-        globe::clipmap::finest_level(settings_, surface_->root_edge(), point.height_m, max_level_).level};
-    const double raised = globe::planet::clear_way(*surface_, before, place, keep).back().h_m - place.h_m;
-    if (raised > 0.0) rises_.push_back({t, std::min({kWidth, t, 1.0 - t}), raised});
-    before = place;
+void Flight::find_rises(const std::vector<double>& marks) {
+  geo::Geodetic before = plan_(0.0).view.place;
+  const int least = std::min(kPieceSamples, kMostSamples / static_cast<int>(marks.size()));
+  for (std::size_t piece = 0; piece + 1 < marks.size(); ++piece) {
+    const double begin = marks[piece], end = marks[piece + 1];
+    const int samples = std::max({static_cast<int>(std::ceil(kSamples * (end - begin))), least, 1});
+    for (int k = 1; k <= samples; ++k) {
+      const double t = k == samples ? end : begin + (end - begin) * k / samples;
+      const Planned planned = plan_(t);
+      const geo::Geodetic& place = planned.view.place;
+      const globe::planet::Clearance keep{
+          std::max(kShare * planned.above_m, least_clearance(surface_->ellipsoid())),
+          globe::clipmap::finest_level(settings_, surface_->root_edge(), planned.above_m, max_level_).level};
+      const double raised = globe::planet::clear_way(*surface_, before, place, keep).back().h_m - place.h_m;
+      before = place;
+      const double width =
+          std::min({kWidth, t, 1.0 - t, std::max(std::min(t - begin, end - t), kLeastWidth)});
+      if (raised > 0.0 && width > 0.0) rises_.push_back({t, width, raised});
+    }
   }
 }
 
@@ -84,8 +112,7 @@ double Flight::raised_by(double t) const {
 }
 
 Flight::View Flight::at(double t, bool wait) const {
-  globe::scene::PathPoint point;
-  View view{planned(t, point), point.heading_deg, point.pitch_deg};
+  View view = plan_(t).view;
   view.place.h_m += raised_by(t);
   const double above = globe::clipmap::height_above_ground(
       settings_, *surface_, geo::ecef_from_geodetic(surface_->ellipsoid(), view.place), max_level_, wait);

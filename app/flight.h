@@ -1,11 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "globe/clipmap/settings.h"
 #include "globe/planet/surface.h"
-#include "globe/scene/flight_path.h"
+#include "globe/scene/scene.h"
 
 namespace app {
 
@@ -15,17 +16,23 @@ struct FlightEnd {
   double above_ground_m = 0;
 };
 
-/// A camera's flight between two places above the ground, clear of the ground all the way.
+/// A camera's flight above the ground, clear of the ground all the way: between two places, or along the path
+/// of a scene.
 ///
-/// Heights of its ends count from the ground under them, in between from the ground's height interpolated
-/// along. Where mountains stand in the way the flight is raised: by a smooth rise that begins and ends a
-/// twelfth of its time away from them, so far that it keeps a quarter of its own height above them. Nowhere
-/// is it nearer to the ground than least_clearance.
+/// Heights of its ends, or of the places of a path, count from the ground under them, in between from the
+/// ground's height interpolated along. Where mountains stand in the way the flight is raised: by a smooth
+/// rise that begins and ends a twelfth of its time away from them, so far that it keeps a quarter of its own
+/// height above them. A path's places themselves are raised only where such ground is within a quarter of
+/// that time. Nowhere is it nearer to the ground than least_clearance.
 class Flight {
  public:
   /// @param max_level  finest level of triangles
   Flight(const globe::clipmap::Settings& settings, std::shared_ptr<const globe::planet::Surface> surface,
          int max_level, const FlightEnd& from, const FlightEnd& to, double heading_deg, double pitch_deg);
+
+  /// Throws globe::Error when all places of the path are one.
+  Flight(const globe::clipmap::Settings& settings, std::shared_ptr<const globe::planet::Surface> surface,
+         int max_level, const globe::scene::Path& path);
 
   struct View {
     globe::geo::Geodetic place;
@@ -37,22 +44,29 @@ class Flight {
   /// @param wait  false: the ground at hand, so that it takes no time
   View at(double t, bool wait) const;
 
+  /// What a path takes; 0 for a flight between two places, which is as long as its film.
+  double duration_s() const { return duration_s_; }
+
  private:
+  /// What it would do were there no ground in its way.
+  struct Planned {
+    View view;
+    double above_m = 0;  ///< over the interpolated ground
+  };
   struct Rise {
     double t, width;  ///< of the flight's time
     double metres;
   };
 
-  globe::geo::Geodetic planned(double t, globe::scene::PathPoint& point) const;
   double ground_below(globe::geo::Geodetic place) const;
-  void find_rises();
+  void find_rises(const std::vector<double>& marks);
   double raised_by(double t) const;
 
   globe::clipmap::Settings settings_;
   std::shared_ptr<const globe::planet::Surface> surface_;
   int max_level_;
-  globe::scene::FlightPath path_;
-  double from_ground_, to_ground_;
+  std::function<Planned(double t)> plan_;
+  double duration_s_ = 0;
   std::vector<Rise> rises_;
 };
 

@@ -21,6 +21,8 @@
 #include "app/parse_options.h"
 #include "app/point.h"
 #include "app/progress.h"
+#include "app/records.h"
+#include "app/scene_argument.h"
 #include "app/view_options.h"
 #include "globe/base/error.h"
 #include "globe/gl/context.h"
@@ -55,9 +57,8 @@ struct FlyOptions {
 
 /// An end of the flight: ALT counts from the ellipsoid, or from the ground with --agl; without ALT `fallback`
 /// above ground.
-FlightEnd parse_end(const std::string& text, bool agl, double fallback, const render::GlobeRenderer& renderer,
-                    const geo::Ellipsoid& ellipsoid) {
-  const Point point = parse_point(text);
+FlightEnd end_of(const Point& point, bool agl, double fallback, const render::GlobeRenderer& renderer,
+                 const geo::Ellipsoid& ellipsoid) {
   geo::Geodetic place = point.position;
   if (!point.has_alt) return {place, fallback};
   const double above =
@@ -83,18 +84,62 @@ void refuse_existing(const std::string& path, bool overwrite) {
   }
 }
 
-void run(const FlyOptions& options) {
+/// A flight, and the place that the sun shines on.
+struct Planned {
+  Flight flight;
+  geo::Geodetic target;
+};
+
+/// From --from to --to, or to the scene's camera or a scenic place.
+Planned flight_between(const FlyOptions& options, const std::optional<globe::scene::Scene>& scene,
+                       const std::shared_ptr<const globe::planet::Surface>& surface,
+                       const render::GlobeRenderer& renderer, int max_level) {
   const ViewOptions& view = options.view;
-  const Size size = parse_size(view.size);
-  if (options.frames < 1 || options.frames > 1'000'000) {
-    throw globe::UsageError("--frames " + std::to_string(options.frames), "not 1 to 1000000",
-                            "give a number in that range");
+  const geo::Ellipsoid& ellipsoid = surface->ellipsoid();
+  const double final_height = kFinalHeight * geo::small_body_scale(ellipsoid);
+  Look look = view.look.empty() ? Look{0.0, 0.0} : parse_look(view.look);
+  FlightEnd to;
+  if (!options.to.empty()) {
+    to = end_of(parse_point(options.to), view.agl, final_height, renderer, ellipsoid);
+  } else if (scene && scene->camera) {
+    to = end_of(scene->camera->at, view.agl || scene->camera->agl, final_height, renderer, ellipsoid);
+    if (view.look.empty() && scene->camera->look)
+      look = {scene->camera->look->heading_deg, scene->camera->look->pitch_deg};
+  } else {
+    const globe::planet::ScenicView scenic = globe::planet::scenic_place(*surface);
+    to = {scenic.place, final_height};
+    if (view.look.empty()) look.heading_deg = scenic.heading_deg;
   }
+  const FlightEnd from =
+      options.from == "orbit"
+          ? FlightEnd{to.place, kOrbit * ellipsoid.mean_radius() / geo::kWgs84.mean_radius()}
+          : end_of(parse_point(options.from), view.agl, final_height, renderer, ellipsoid);
+  return {{clipmap_settings(view), surface, max_level, from, to, look.heading_deg, look.pitch_deg}, to.place};
+}
+
+void run(FlyOptions options, const CLI::App& command) {
+  ViewOptions& view = options.view;
+  const std::optional<globe::scene::Scene> scene = take_scene(command, view);
+  const Optics optics = optics_of(view.optics);
+  const Size size = size_of(view, optics);
+  const bool along_path =
+      scene && scene->path && options.to.empty() && command.get_option("--from")->count() == 0;
+  const bool frames_given = command.get_option("--frames")->count() > 0;
+  if (scene && scene->path && scene->path->fps && command.get_option("--fps")->count() == 0)
+    options.fps = *scene->path->fps;
+  if (along_path && scene->path->frames && !frames_given) options.frames = *scene->path->frames;
+  const auto check_frames = [](double frames) {
+    if (frames >= 1 && frames <= 1'000'000) return;
+    throw globe::UsageError("--frames " + number_text(frames, 0), "not 1 to 1000000",
+                            "give a number in that range");
+  };
+  check_frames(options.frames);
   if (options.budget_ms && !(*options.budget_ms >= 0.0 && *options.budget_ms <= kLongestBudget)) {
     throw globe::UsageError("--budget " + std::to_string(*options.budget_ms), "not 0 to 10000 milliseconds",
                             "give what a frame may take, such as 33");
   }
   const render::RenderSettings settings = render_settings(view);
+  if (!view.look.empty()) parse_look(view.look);
   refuse_existing(options.stats, view.overwrite);
   refuse_existing(options.contact_sheet, view.overwrite);
   const auto surface = open_planet(view);
@@ -102,30 +147,24 @@ void run(const FlyOptions& options) {
 
   const globe::gl::Context context(view.device);
   render::GlobeRenderer renderer(surface, settings);
-  globe::gl::FramebufferFormat format;
-  format.samples = view.samples;
-  const globe::gl::Framebuffer target(size.width, size.height, format);
+  Lens lens(optics, size.width, size.height, view.samples, settings.background);
+  const globe::gl::Framebuffer& target = lens.target();
 
-  const double final_height = kFinalHeight * geo::small_body_scale(ellipsoid);
-  Look look = view.look.empty() ? Look{0.0, 0.0} : parse_look(view.look);
-  FlightEnd to;
-  if (options.to.empty()) {
-    const globe::planet::ScenicView scenic = globe::planet::scenic_place(*surface);
-    to = {scenic.place, final_height};
-    if (view.look.empty()) look.heading_deg = scenic.heading_deg;
-  } else {
-    to = parse_end(options.to, view.agl, final_height, renderer, ellipsoid);
+  const Planned planned = along_path ? Planned{{settings.clipmap, surface, settings.max_level, *scene->path},
+                                               scene->path->keys.back().place}
+                                     : flight_between(options, scene, surface, renderer, settings.max_level);
+  const Flight& flight = planned.flight;
+  if (along_path && !frames_given && !scene->path->frames) {
+    const double frames = std::round(flight.duration_s() * options.fps) + 1.0;
+    check_frames(frames);
+    options.frames = static_cast<int>(frames);
   }
-  const FlightEnd from =
-      options.from == "orbit"
-          ? FlightEnd{to.place, kOrbit * ellipsoid.mean_radius() / geo::kWgs84.mean_radius()}
-          : parse_end(options.from, view.agl, final_height, renderer, ellipsoid);
-  const glm::dvec3 sun = sun_for(view, *surface, to.place.lon_deg);
-  const Flight flight(settings.clipmap, surface, settings.max_level, from, to, look.heading_deg,
-                      look.pitch_deg);
+  const Sunlight sun = sun_for(view, *surface, planned.target);
   const double aspect = static_cast<double>(size.width) / size.height;
+  const bool look_is_fixed = along_path && !view.look.empty();
   const auto camera_at = [&](const Flight::View& at) {
-    return render::make_camera(ellipsoid, at.place, at.heading_deg, at.pitch_deg, view.fov_deg, aspect);
+    const Look look = look_is_fixed ? parse_look(view.look) : Look{at.heading_deg, at.pitch_deg};
+    return optics.camera(ellipsoid, at.place, look.heading_deg, look.pitch_deg, aspect);
   };
 
   FrameSink sink({view.output, size.width, size.height, options.fps, view.overwrite});
@@ -135,8 +174,8 @@ void run(const FlyOptions& options) {
                     surface->data_level());
   Progress progress(progress_style(view.quiet || view.output == "-", false));
 
-  renderer.warm_up(target);
-  renderer.draw(camera_at(flight.at(0.0, true)), sun, true, target);
+  lens.warm_up(renderer);
+  lens.draw(renderer, camera_at(flight.at(0.0, true)), sun.at(0.0), true);
   globe::gl::TimerQuery timer = globe::gl::TimerQuery::create();
   FrameClock clock(
       std::chrono::duration<double>(options.wait ? 0.0 : std::min(1.0 / options.fps, kLongestTurn)));
@@ -148,7 +187,8 @@ void run(const FlyOptions& options) {
     const Flight::View at = flight.at(t, options.wait);
     const render::Camera camera = camera_at(at);
     timer.begin();
-    const render::FrameStats frame = renderer.draw(camera, sun, options.wait, target, budget.uploads_ms());
+    const render::FrameStats frame =
+        lens.draw(renderer, camera, sun.at(t * flight.duration_s()), options.wait, budget.uploads_ms());
     target.resolve();
     timer.end();
     glFinish();
@@ -181,7 +221,8 @@ void add_fly(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--to", options->to,
                       "LAT,LON[,ALT]: the target (default: a scenic place); without ALT 200 m above ground");
-  command->add_option("--frames", options->frames, "number of frames")->capture_default_str();
+  command->add_option("--frames", options->frames,
+                      "number of frames (default: 300; along a scene's path as many as its time takes)");
   command->add_option("--fps", options->fps, "frames a second of the film")
       ->capture_default_str()
       ->check(in_range(0.1, 1000.0));
@@ -196,7 +237,7 @@ void add_fly(CLI::App& program) {
                    "little (default: a "
                    "third more than drawing takes)")
       ->check(in_range(0.0, 10000.0));
-  command->callback([options] { run(*options); });
+  command->callback([options, command] { run(*options, *command); });
 }
 
 }  // namespace app

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "app/parse_options.h"
 #include "app/planet_argument.h"
 #include "app/records.h"
+#include "app/scene_argument.h"
 #include "app/standing_camera.h"
 #include "app/view_options.h"
 #include "globe/base/error.h"
@@ -29,7 +31,7 @@ using globe::clipmap::DrawnPoint;
 
 struct PickOptions {
   CameraOptions camera;
-  std::string at;
+  StandOptions stand;
   std::vector<std::string> pixels;
   RecordOptions records;
 };
@@ -63,31 +65,40 @@ Pixel parse_pixel(std::string text, const Size& size) {
 class Picker {
  public:
   Picker(const std::shared_ptr<const globe::planet::Surface>& surface, const PickOptions& options,
-         const Size& size, const Look& look)
-      : ellipsoid_(surface->ellipsoid()), size_(size) {
+         const std::optional<globe::scene::Scene>& scene, const Optics& optics, const Size& size)
+      : ellipsoid_(surface->ellipsoid()), size_(size), projection_(optics.projection) {
     const auto settings = clipmap_settings(options.camera);
     const int max_level = render::RenderSettings{}.max_level;
     const auto above = [&](const glm::dvec3& position) {
       return globe::clipmap::height_above_ground(settings, *surface, position, max_level, true);
     };
-    const geo::Geodetic place =
-        standing_place(parse_point(options.at), options.camera.agl, ellipsoid_, above);
-    camera_ = render::make_camera(ellipsoid_, place, look.heading_deg, look.pitch_deg, options.camera.fov_deg,
-                                  static_cast<double>(size.width) / size.height);
+    const Standpoint stand = standpoint(options.stand, options.camera, scene, surface, max_level, above);
+    camera_ = optics.camera(ellipsoid_, stand.place, stand.look.heading_deg, stand.look.pitch_deg,
+                            static_cast<double>(size.width) / size.height);
     near_m_ = render::near_distance(
         ellipsoid_, std::max(above(camera_.position), globe::clipmap::least_above_ground(ellipsoid_)));
     surface_.emplace(globe::clipmap::complete_surface(settings, surface, camera_.position, max_level));
   }
 
   std::optional<DrawnPoint> at(const Pixel& pixel) const {
-    const glm::dvec3 direction =
-        render::direction_through(camera_, (pixel.x + 0.5) / size_.width, (pixel.y + 0.5) / size_.height);
-    return surface_->first_hit({camera_.position, direction}, near_m_ / glm::dot(direction, camera_.forward));
+    const std::optional<glm::dvec3> direction = render::direction_through(
+        projection_, camera_, (pixel.x + 0.5) / size_.width, (pixel.y + 0.5) / size_.height);
+    if (!direction)
+      throw globe::UsageError("pixel " + std::to_string(pixel.x) + "," + std::to_string(pixel.y),
+                              "outside the field of view", "give one that the picture fills");
+    // Faces of a cube have their near planes as far off as a pinhole camera.
+    const glm::dvec3 along =
+        glm::abs(glm::dvec3(glm::dot(*direction, camera_.right), glm::dot(*direction, camera_.up),
+                            glm::dot(*direction, camera_.forward)));
+    const double ahead =
+        projection_ == render::Projection::kPerspective ? along.z : std::max({along.x, along.y, along.z});
+    return surface_->first_hit({camera_.position, *direction}, near_m_ / ahead);
   }
 
  private:
   geo::Ellipsoid ellipsoid_;
   Size size_;
+  render::Projection projection_;
   render::Camera camera_;
   double near_m_ = 0;
   std::optional<globe::clipmap::DrawnSurface> surface_;
@@ -131,14 +142,17 @@ std::string text_line(const geo::Geodetic& place, const std::optional<DrawnPoint
   return line + std::to_string(found->level) + ' ' + number_text(found->alpha, precision) + ' ' + datum;
 }
 
-int run(const PickOptions& options) {
-  const Size size = parse_size(options.camera.size);
-  const Look look = options.camera.look.empty() ? Look{0.0, -90.0} : parse_look(options.camera.look);
+int run(PickOptions options, const CLI::App& command) {
+  const std::optional<globe::scene::Scene> scene = take_scene(command, options.camera);
+  const Optics optics = optics_of(options.camera.optics);
+  const Size size = size_of(options.camera, optics);
+  if (!options.camera.look.empty()) parse_look(options.camera.look);
   for (const std::string& pixel : options.pixels) parse_pixel(pixel, size);
+  const geo::Geodetic sunny = target_of(options.stand, scene);
   const auto surface = open_planet(options.camera);
   warn_of_unknown_datum(*surface, options.camera.planet);
-  sun_for(options.camera, *surface, 0.0);  // refuses a --time that shot would refuse
-  const Picker picker(surface, options, size, look);
+  sun_for(options.camera, *surface, sunny);  // refuses a --time that shot would refuse
+  const Picker picker(surface, options, scene, optics, size);
   const auto& precision = options.records.precision;
   const auto answer = [&](const std::string& record) {
     const std::optional<DrawnPoint> found = picker.at(parse_pixel(record, size));
@@ -159,7 +173,7 @@ void add_pick(CLI::App& program, int& exit_status) {
   auto options = std::make_shared<PickOptions>();
   CLI::App* command = program.add_subcommand("pick", "the ground that a pixel of a picture shows");
   add_camera_options(*command, options->camera);
-  command->add_option("--at", options->at, "where the camera stands: LAT,LON[,ALT]")->required();
+  add_stand_options(*command, options->stand);
   command
       ->add_option("--pixel", options->pixels,
                    "X,Y from the top left, once or more; without it: a pixel a line from standard input")
@@ -177,7 +191,7 @@ void add_pick(CLI::App& program, int& exit_status) {
       "--level\n"
       "LEVEL gives the same height.\n"
       "Example: globe pick procedural --at 46,7,4000 --look 120,-10 --size 1280x720 --pixel 640,360 --json");
-  command->callback([options, &exit_status] { exit_status = run(*options); });
+  command->callback([options, command, &exit_status] { exit_status = run(*options, *command); });
 }
 
 }  // namespace app

@@ -4,6 +4,7 @@
 
 #include "app/commands.h"
 #include "app/image_file.h"
+#include "app/scene_argument.h"
 #include "app/standing_camera.h"
 #include "app/view_options.h"
 #include "globe/base/error.h"
@@ -18,7 +19,7 @@ namespace {
 
 struct ShotOptions {
   ViewOptions view;
-  std::string at;
+  StandOptions stand;
 };
 
 void write_depth(const ViewOptions& options, const Size& size, const std::vector<float>& depth,
@@ -49,32 +50,33 @@ void write_depth(const ViewOptions& options, const Size& size, const std::vector
   write_image(options.output, {size.width, size.height, rgba}, options.overwrite);
 }
 
-void run(const ShotOptions& options) {
+void run(ShotOptions options, const CLI::App& command) {
   namespace render = globe::render;
-  const ViewOptions& view = options.view;
-  const Size size = parse_size(view.size);
-  const Look look = view.look.empty() ? Look{0.0, -90.0} : parse_look(view.look);
-  const Point at = parse_point(options.at);
+  ViewOptions& view = options.view;
+  const std::optional<globe::scene::Scene> scene = take_scene(command, view);
+  const Optics optics = optics_of(view.optics);
+  const Size size = size_of(view, optics);
+  if (!view.look.empty()) parse_look(view.look);
+  const globe::geo::Geodetic sunny = target_of(options.stand, scene);
   const render::RenderSettings settings = render_settings(view);
   if (!view.overwrite && std::filesystem::exists(view.output)) {
     throw globe::Error(view.output, "the file exists", "give another name or --overwrite");
   }
   const auto surface = open_planet(view);
-  const glm::dvec3 sun = sun_for(view, *surface, at.position.lon_deg);
+  const Sunlight sun = sun_for(view, *surface, sunny);
 
   const globe::gl::Context context(view.device);
   render::GlobeRenderer renderer(surface, settings);
-  globe::gl::FramebufferFormat format;
-  format.samples = view.samples;
-  const globe::gl::Framebuffer target(size.width, size.height, format);
+  Lens lens(optics, size.width, size.height, view.samples, settings.background);
+  const globe::gl::Framebuffer& target = lens.target();
 
-  const globe::geo::Geodetic place =
-      standing_place(at, view.agl, surface->ellipsoid(),
-                     [&](const glm::dvec3& position) { return renderer.height_above_ground(position); });
+  const Standpoint stand =
+      standpoint(options.stand, view, scene, surface, settings.max_level,
+                 [&](const glm::dvec3& position) { return renderer.height_above_ground(position); });
   const render::Camera camera =
-      render::make_camera(surface->ellipsoid(), place, look.heading_deg, look.pitch_deg, view.fov_deg,
-                          static_cast<double>(size.width) / size.height);
-  renderer.draw(camera, sun, true, target);
+      optics.camera(surface->ellipsoid(), stand.place, stand.look.heading_deg, stand.look.pitch_deg,
+                    static_cast<double>(size.width) / size.height);
+  lens.draw(renderer, camera, sun.at(options.stand.moment_s), true);
   if (view.show == "depth") {
     write_depth(view, size, target.read_depth(),
                 render::near_distance(surface->ellipsoid(),
@@ -97,8 +99,8 @@ void add_shot(CLI::App& program) {
   auto options = std::make_shared<ShotOptions>();
   CLI::App* command = program.add_subcommand("shot", "One picture of a planet, complete");
   add_view_options(*command, options->view);
-  command->add_option("--at", options->at, "where the camera stands: LAT,LON[,ALT]")->required();
-  command->callback([options] { run(*options); });
+  add_stand_options(*command, options->stand);
+  command->callback([options, command] { run(*options, *command); });
 }
 
 }  // namespace app

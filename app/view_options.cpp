@@ -43,14 +43,15 @@ glm::vec3 parse_color(const std::string& text) {
 }  // namespace
 
 void add_camera_options(CLI::App& command, CameraOptions& options) {
-  command.add_option("PLANET", options.planet, "folder made by globe convert, or procedural[:SEED]")
+  command
+      .add_option("PLANET", options.planet,
+                  "folder made by globe convert, procedural[:SEED], or a scene, SCENE.toml")
       ->required();
   command.add_flag("--agl", options.agl, "altitudes count from the ground");
   command.add_option("--look", options.look, "HEADING,PITCH in degrees; -90 down, 0 level");
-  command.add_option("--size", options.size, "WxH in pixels")->capture_default_str();
-  command.add_option("--fov", options.fov_deg, "vertical field of view, degrees")
-      ->capture_default_str()
-      ->check(in_range(0.01, 170.0));
+  command.add_option("--size", options.size,
+                     "WxH in pixels (default: 1280x720; fisheye 1024x1024, equirectangular 2048x1024)");
+  add_optics_options(command, options.optics);
   command.add_option("--time", options.time,
                      "UTC date and time of the sun, ISO 8601 (default: 10:00 local solar time, 21 March)");
   command.add_option("--detail", options.detail, "side of the hexagons in cells, 16 to 1024")
@@ -130,6 +131,10 @@ Size parse_size(const std::string& text) {
   return {*width, *height};
 }
 
+Size size_of(const CameraOptions& options, const Optics& optics) {
+  return parse_size(options.size.empty() ? optics.usual_size() : options.size);
+}
+
 globe::render::RenderSettings render_settings(const ViewOptions& options) {
   globe::render::RenderSettings settings;
   settings.clipmap = clipmap_settings(options);
@@ -155,16 +160,33 @@ globe::render::RenderSettings render_settings(const ViewOptions& options) {
   return settings;
 }
 
-glm::dvec3 sun_for(const CameraOptions& options, const globe::planet::Surface& surface,
-                   double target_lon_deg) {
-  if (options.time.empty()) return globe::geo::morning_sun(target_lon_deg);
+Sunlight::Sunlight(const globe::geo::UtcDate& date, double speed)
+    : direction_(globe::geo::sun_direction(date)), date_(date), speed_(speed) {}
+
+glm::dvec3 Sunlight::at(double seconds) const {
+  if (!date_ || speed_ == 0.0 || seconds == 0.0) return direction_;
+  return globe::geo::sun_direction(globe::geo::later_by(*date_, speed_ * seconds));
+}
+
+Sunlight sun_for(const CameraOptions& options, const globe::planet::Surface& surface,
+                 const globe::geo::Geodetic& target) {
+  namespace geo = globe::geo;
+  const globe::scene::Sun& sun = options.sun;
+  if (options.time.empty() && sun.overhead)
+    return Sunlight(geo::normal_from_degrees(sun.overhead->lat_deg, sun.overhead->lon_deg));
+  if (options.time.empty() && sun.position) {
+    const geo::LocalFrame frame = geo::local_frame(target.lat_deg, target.lon_deg);
+    return Sunlight(geo::look_direction(frame, sun.position->azimuth_deg, sun.position->altitude_deg));
+  }
+  const std::string time = options.time.empty() ? sun.time.value_or("") : options.time;
+  if (time.empty()) return Sunlight(geo::morning_sun(target.lon_deg));
   const std::string& body = surface.info().body;
   if (body == "moon" || body == "mars") {
-    throw UsageError("--time " + options.time,
+    throw UsageError("--time " + time,
                      "the sun's place is computed for the Earth only, this planet is the " + body,
-                     "leave --time out");
+                     "leave the time out");
   }
-  return globe::geo::sun_direction(options.time);
+  return {geo::parse_utc(time, "--time"), options.time.empty() ? sun.speed : 0.0};
 }
 
 }  // namespace app

@@ -5,9 +5,12 @@
 #include <optional>
 #include <string>
 
+#include "app/optics.h"
 #include "globe/geo/ellipsoid.h"
+#include "globe/geo/utc.h"
 #include "globe/planet/surface.h"
 #include "globe/render/globe_renderer.h"
+#include "globe/scene/scene.h"
 
 namespace app {
 
@@ -15,9 +18,10 @@ namespace app {
 struct CameraOptions {
   std::string planet;
   std::string look;
-  std::string size = "1280x720";
-  double fov_deg = 60.0;
+  std::string size;  ///< empty: what is usual for the projection
+  OpticsOptions optics;
   std::string time;
+  globe::scene::Sun sun;  ///< a scene's, where there is no time
   int detail = 64;
   std::string morph = "on";
   double exaggeration = 1.0;
@@ -65,12 +69,30 @@ struct Size {
 };
 /// "WxH", 16 to 16384 a side. Throws UsageError.
 Size parse_size(const std::string& text);
+/// Of a picture, or what is usual for its projection.
+Size size_of(const CameraOptions& options, const Optics& optics);
 
 /// Settings of a renderer from the options. Throws UsageError.
 globe::render::RenderSettings render_settings(const ViewOptions& options);
 
-/// Toward the sun at --time, or at 10:00 local solar time at the target.
-glm::dvec3 sun_for(const CameraOptions& options, const globe::planet::Surface& surface,
-                   double target_lon_deg);
+/// Where the sun stands, from second to second of a flight.
+class Sunlight {
+ public:
+  explicit Sunlight(const glm::dvec3& direction) : direction_(direction) {}
+  Sunlight(const globe::geo::UtcDate& date, double speed);
+
+  /// Unit vector toward it, ECEF.
+  glm::dvec3 at(double seconds) const;
+
+ private:
+  glm::dvec3 direction_{1, 0, 0};
+  std::optional<globe::geo::UtcDate> date_;  ///< at 0 seconds; none: it stands
+  double speed_ = 0;
+};
+
+/// The sun of --time, or as a scene has it, or at 10:00 local solar time at the target. Throws UsageError for
+/// a time on a planet where it says nothing.
+Sunlight sun_for(const CameraOptions& options, const globe::planet::Surface& surface,
+                 const globe::geo::Geodetic& target);
 
 }  // namespace app

@@ -3,6 +3,8 @@
 #include <glm/vec3.hpp>
 #include <string>
 
+#include "globe/geo/utc.h"
+
 namespace globe::geo {
 
 /// Unit vector from the Earth's centre toward the sun, Earth-fixed (ITRS, polar motion left out), at a UTC
@@ -14,6 +16,7 @@ namespace globe::geo {
 /// @param iso8601  "2026-03-21", "2026-03-21T10:00[:SS[.sss]]", with "Z" or "+hh:mm"; without a zone UTC
 /// Throws UsageError for anything else or a date that does not exist.
 glm::dvec3 sun_direction(const std::string& iso8601);
+glm::dvec3 sun_direction(const UtcDate& utc);
 
 /// The sun at 10:00 local solar time at a longitude, at an equinox: over the equator, 30 degrees east of the
 /// place.

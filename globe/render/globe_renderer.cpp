@@ -75,20 +75,27 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
     batches.push_back({look, look.kind == Kind::kRim ? 1 : 0, 0, {list.batches.front().instances.front()}});
   }
   list.batches = std::move(batches);
-  FrameStats ignored;
   target.bind();
-  draw_ground(list, ignored);
+  draw_ground(list);
 }
 
 FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool wait,
                                const gl::Framebuffer& target, double upload_ms) {
-  FrameStats stats;
+  begin_frame(camera.position, sun, wait, upload_ms);
+  draw_view(camera, target);
+  return stats_;
+}
+
+void GlobeRenderer::begin_frame(const glm::dvec3& position, const glm::dvec3& sun, bool wait,
+                                double upload_ms) {
+  stats_ = {};
+  sun_ = sun;
   auto begin = std::chrono::steady_clock::now();
-  const double above = std::max(height_above_ground(camera.position, wait),
-                                clipmap::least_above_ground(surface_->ellipsoid()));
+  above_m_ =
+      std::max(height_above_ground(position, wait), clipmap::least_above_ground(surface_->ellipsoid()));
   const auto finest =
-      clipmap::finest_level(settings_.clipmap, surface_->root_edge(), above, settings_.max_level);
-  const geo::Geodetic place = geo::geodetic_from_ecef(surface_->ellipsoid(), camera.position);
+      clipmap::finest_level(settings_.clipmap, surface_->root_edge(), above_m_, settings_.max_level);
+  const geo::Geodetic place = geo::geodetic_from_ecef(surface_->ellipsoid(), position);
   clipmap::Target wanted{geo::normal_from_degrees(place.lat_deg, place.lon_deg),
                          finest.level,
                          {sun, settings_.show == Show::kNormals}};
@@ -97,30 +104,34 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
     wanted.lighting = state().target.lighting;
   const bool whole = wait || !loader_.state();
   const Loader::Uploaded uploaded =
-      whole ? loader_.load_whole(wanted) : loader_.load_some(wanted, above, upload_ms);
+      whole ? loader_.load_whole(wanted) : loader_.load_some(wanted, above_m_, upload_ms);
   if (whole) begin = std::chrono::steady_clock::now();
-  stats.upload_bytes = uploaded.bytes;
-  stats.upload_ms = uploaded.ms;
-  stats.queued_jobs = loader_.queued_jobs();
-  stats.queued_bytes = textures().queued_bytes();
-  stats.gpu_bytes = textures().bytes();
+  stats_.upload_bytes = uploaded.bytes;
+  stats_.upload_ms = uploaded.ms;
+  stats_.queued_jobs = loader_.queued_jobs();
+  stats_.queued_bytes = textures().queued_bytes();
+  stats_.gpu_bytes = textures().bytes();
 
   if (wait) admission_.show(finest);
-  clipmap::FinestLevel shown = wait ? finest : admission_.next(finest, state().target.finest);
-  if (!settings_.clipmap.morph) shown = {std::min(finest.level, state().target.finest), 0.0f};
-  stats.finest_level = shown.level;
-  stats.fade = shown.fade;
+  shown_ = wait ? finest : admission_.next(finest, state().target.finest);
+  if (!settings_.clipmap.morph) shown_ = {std::min(finest.level, state().target.finest), 0.0f};
+  stats_.finest_level = shown_.level;
+  stats_.fade = shown_.fade;
   const int levels = finest.level - settings_.clipmap.base_level + 1;
   const int ready = std::min(clipmap::levels_ready(settings_.clipmap, state(), wanted),
-                             shown.level - settings_.clipmap.base_level + 1);
-  stats.completeness = static_cast<double>(ready) / levels;
-  stats.complete = ready == levels && shown.fade == finest.fade;
+                             shown_.level - settings_.clipmap.base_level + 1);
+  stats_.completeness = static_cast<double>(ready) / levels;
+  stats_.complete = ready == levels && shown_.fade == finest.fade;
+  stats_.cpu_ms = milliseconds_since(begin) - (whole ? 0.0 : stats_.upload_ms);
+}
 
-  const ViewBlock view = view_block(camera, *surface_, sun, near_distance(surface_->ellipsoid(), above));
+void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& target) {
+  const auto begin = std::chrono::steady_clock::now();
+  const ViewBlock view = view_block(camera, *surface_, sun_, near_distance(surface_->ellipsoid(), above_m_));
   const DrawList list = make_draw_list(settings_.clipmap, state(), textures(), surface_->ellipsoid(), camera,
-                                       shown.level, shown.fade, settings_.cull_patches);
-  stats.cpu_ms = milliseconds_since(begin) - (whole ? 0.0 : stats.upload_ms);
-  stats.patches = list.patches;
+                                       shown_.level, shown_.fade, settings_.cull_patches);
+  stats_.cpu_ms += milliseconds_since(begin);
+  stats_.patches += list.patches;
 
   view_.upload(0, &view, sizeof(view));
   view_.bind_base(GL_UNIFORM_BUFFER, 0);
@@ -142,12 +153,11 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
   target.clear_color(background.r, background.g, background.b, 1.0f);
   target.clear_depth(0.0f);
 
-  draw_ground(list, stats);
+  draw_ground(list);
   if (sky_) sky_->draw(view);
-  return stats;
 }
 
-void GlobeRenderer::draw_ground(const DrawList& list, FrameStats& stats) {
+void GlobeRenderer::draw_ground(const DrawList& list) {
   slots_.upload(0, list.slots.data(), list.slots.size() * sizeof(SlotBlock));
   slots_.bind_base(GL_UNIFORM_BUFFER, 1);
   std::size_t first = 0;
@@ -155,7 +165,8 @@ void GlobeRenderer::draw_ground(const DrawList& list, FrameStats& stats) {
     instances_.upload(first * sizeof(glm::ivec4), batch.instances.data(),
                       batch.instances.size() * sizeof(glm::ivec4));
     first += batch.instances.size();
-    stats.triangles += batch.instances.size() * mesh_.indices[static_cast<std::size_t>(batch.rim)].size() / 3;
+    stats_.triangles +=
+        batch.instances.size() * mesh_.indices[static_cast<std::size_t>(batch.rim)].size() / 3;
   }
   textures().bind();
   ground_array_.bind();

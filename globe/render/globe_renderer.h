@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "globe/clipmap/morph.h"
 #include "globe/clipmap/patch.h"
 #include "globe/gl/buffer.h"
 #include "globe/gl/framebuffer.h"
@@ -70,6 +71,15 @@ class GlobeRenderer {
   FrameStats draw(const Camera& camera, const glm::dvec3& sun, bool wait, const gl::Framebuffer& target,
                   double upload_ms = kUploadTime);
 
+  /// The two halves of draw(), for frames that look several ways from one place: first what is shown is
+  /// decided and loaded, then each view is drawn, into a framebuffer of its own or one after the other.
+  void begin_frame(const glm::dvec3& position, const glm::dvec3& sun, bool wait,
+                   double upload_ms = kUploadTime);
+  /// REQUIRES: the camera stands where the frame was begun.
+  void draw_view(const Camera& camera, const gl::Framebuffer& target);
+  /// Of the frame begun last, its views so far.
+  const FrameStats& frame_stats() const { return stats_; }
+
   /// Loads the base level and has every program compiled, so that the first frames of a flight take no longer
   /// than others.
   void warm_up(const gl::Framebuffer& target);
@@ -92,7 +102,7 @@ class GlobeRenderer {
   const clipmap::Settings& clipmap_settings() const { return settings_.clipmap; }
 
  private:
-  void draw_ground(const DrawList& list, FrameStats& stats);
+  void draw_ground(const DrawList& list);
   void draw_batches(const DrawList& list, const glm::vec4& overlay);
 
   std::shared_ptr<const planet::Surface> surface_;
@@ -105,6 +115,10 @@ class GlobeRenderer {
   std::optional<Sky> sky_;                         ///< none with a background
   Loader loader_;
   Admission admission_;
+  glm::dvec3 sun_{1, 0, 0};  ///< of this frame, as the next three
+  double above_m_ = 0;       ///< height above ground, at least what a camera counts as
+  clipmap::FinestLevel shown_{0, 0};
+  FrameStats stats_;
 };
 
 }  // namespace globe::render

@@ -14,15 +14,14 @@ constexpr double kTiltBegins = 250;  ///< times the final height: higher up the 
 /// Integral of smoothstep from 0 to x, x in [0, 1].
 double smoothstep_integral(double x) { return x * x * x - 0.5 * x * x * x * x; }
 
-/// A unit vector perpendicular to `from`, toward `to`; between antipodes or at one place toward north.
+}  // namespace
+
 glm::dvec3 track_direction(const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 across = to - from * glm::dot(from, to);
   if (glm::length(across) > 1e-12) return glm::normalize(across);
   const glm::dvec3 north = glm::dvec3(0, 0, 1) - from * from.z;
   return glm::length(north) > 1e-12 ? glm::normalize(north) : glm::dvec3(1, 0, 0);
 }
-
-}  // namespace
 
 double FlightPath::eased(double t) {
   // Speed: smoothstep up over kEase, constant, smoothstep down; scaled to cover 1.

@@ -47,6 +47,10 @@ class FlightPath {
   bool zoom_only_ = true;
 };
 
+/// A unit vector perpendicular to `from`, toward `to`, both unit; between antipodes or at one place toward
+/// north, at a pole along the meridian of 0.
+glm::dvec3 track_direction(const glm::dvec3& from, const glm::dvec3& to);
+
 /// Pitch for a height: the final one low down, straight down from high above, eased in the logarithm of
 /// height.
 double pitch_for_height(double height_m, double final_height_m, double final_pitch_deg);

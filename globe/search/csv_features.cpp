@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "globe/base/csv_reader.h"
 #include "globe/base/error.h"
-#include "globe/search/csv_reader.h"
 #include "globe/search/same_letters.h"
 
 namespace globe::search {

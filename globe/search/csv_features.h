@@ -24,7 +24,7 @@ struct BadLine {
   std::string why;
 };
 
-/// Reads points from CSV (csv_reader.h), record by record.
+/// Reads points from CSV (globe/base/csv_reader.h), record by record.
 ///
 /// Latitude and longitude are plain degrees; the longitude may be of any size. All other columns become
 /// properties, texts as they stand, keyed by the header (by "1", "2", ... without one); empty fields are left

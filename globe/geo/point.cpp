@@ -1,4 +1,4 @@
-#include "app/point.h"
+#include "globe/geo/point.h"
 
 #include <GeographicLib/DMS.hpp>
 #include <GeographicLib/MGRS.hpp>
@@ -13,7 +13,7 @@
 
 #include "globe/base/error.h"
 
-namespace app {
+namespace globe::geo {
 namespace {
 
 using GeographicLib::DMS;
@@ -220,4 +220,4 @@ Point parse_point(std::string_view text) {
   throw UsageError("point " + in_quotes(text), "is not a place", kHowToWrite);
 }
 
-}  // namespace app
+}  // namespace globe::geo

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace globe::search {
+namespace globe {
 
 /// One record of a CSV file, or why there is none.
 struct CsvRecord {
@@ -48,4 +48,4 @@ class CsvReader {
   std::size_t next_line_ = 1;
 };
 
-}  // namespace globe::search
+}  // namespace globe

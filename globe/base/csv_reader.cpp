@@ -1,4 +1,4 @@
-#include "globe/search/csv_reader.h"
+#include "globe/base/csv_reader.h"
 
 #include <csv.h>
 
@@ -7,7 +7,7 @@
 #include <new>
 #include <utility>
 
-namespace globe::search {
+namespace globe {
 namespace {
 
 constexpr std::size_t kBuffer = std::size_t{1} << 18;
@@ -140,4 +140,4 @@ std::optional<CsvRecord> CsvReader::next() {
   return record;
 }
 
-}  // namespace globe::search
+}  // namespace globe

@@ -1,4 +1,4 @@
-#include "globe/search/csv_reader.h"
+#include "globe/base/csv_reader.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace globe::search {
+namespace globe {
 namespace {
 
 using Fields = std::vector<std::string>;
@@ -105,4 +105,4 @@ RC_GTEST_PROP(CsvReader, ReadsBackWhateverIsQuoted, (const std::vector<std::vect
 }
 
 }  // namespace
-}  // namespace globe::search
+}  // namespace globe

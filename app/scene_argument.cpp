@@ -1,0 +1,55 @@
+#include "app/scene_argument.h"
+
+#include <filesystem>
+
+#include "globe/base/error.h"
+
+namespace app {
+namespace {
+
+namespace scene = globe::scene;
+
+/// Takes what a scene says for an option that was not given.
+template <class Value, class Said>
+void take(const CLI::App& command, const char* option, Value& value, const std::optional<Said>& said) {
+  if (said && command.get_option(option)->count() == 0) value = *said;
+}
+
+std::optional<scene::Scene> scene_of(const std::string& word) {
+  if (!word.ends_with(".toml") || std::filesystem::is_directory(word)) return std::nullopt;
+  return scene::read_scene(word, {});
+}
+
+}  // namespace
+
+std::optional<scene::Scene> take_scene(const CLI::App& command, CameraOptions& options) {
+  std::optional<scene::Scene> scene = scene_of(options.planet);
+  if (!scene) return scene;
+  options.planet = scene->planet;
+  const scene::Picture& picture = scene->picture;
+  take(command, "--size", options.size, picture.size);
+  // A field of view is that of its projection: one on the command line leaves the scene's behind.
+  if (command.get_option("--projection")->count() == 0 || options.optics.projection == picture.projection)
+    take(command, "--fov", options.optics.fov_deg, picture.fov_deg);
+  take(command, "--projection", options.optics.projection, picture.projection);
+  take(command, "--axis", options.optics.axis, picture.axis);
+  take(command, "--faces", options.optics.faces, picture.faces);
+  take(command, "--detail", options.detail, picture.detail);
+  take(command, "--exaggeration", options.exaggeration, picture.exaggeration);
+  if (picture.morph) take(command, "--morph", options.morph, std::optional(*picture.morph ? "on" : "off"));
+  if (options.time.empty()) options.sun = scene->sun;
+  return scene;
+}
+
+std::optional<scene::Scene> take_scene(const CLI::App& command, ViewOptions& options) {
+  std::optional<scene::Scene> scene = take_scene(command, static_cast<CameraOptions&>(options));
+  if (!scene) return scene;
+  const scene::Picture& picture = scene->picture;
+  take(command, "--samples", options.samples, picture.samples);
+  take(command, "--background", options.background, picture.background);
+  take(command, "--positions", options.positions, picture.positions);
+  take(command, "--window", options.window, picture.window);
+  return scene;
+}
+
+}  // namespace app

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+
+#include "app/view_options.h"
+#include "globe/scene/scene.h"
+
+namespace app {
+
+/// The scene, where the word for the PLANET names one: a file that ends in .toml. The planet and whatever
+/// picture it asks for are then taken into the options, unless the command line says otherwise; the rest is
+/// up to the command. Throws what globe::scene::read_scene throws.
+std::optional<globe::scene::Scene> take_scene(const CLI::App& command, CameraOptions& options);
+std::optional<globe::scene::Scene> take_scene(const CLI::App& command, ViewOptions& options);
+
+}  // namespace app
