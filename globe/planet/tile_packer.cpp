@@ -9,7 +9,7 @@
 namespace globe::planet {
 namespace {
 
-/// Of ISA-L: 1 of 0 to 3. Against libdeflate's 1 the time is half and the files are 1 to 2 % larger; level 2
+/// Of ISA-L: 1 of 0 to 3. Against libdeflate's 1 the time is half and the files are 1 to 3 % larger; level 2
 /// saves 0.5 % for a fifth more time, level 3 packs otherwise from processor to processor. (Zstandard's tiles
 /// have no checksum: a flipped bit would be drawn.)
 constexpr std::uint32_t kDeflateLevel = 1;
