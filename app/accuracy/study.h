@@ -71,6 +71,7 @@ struct Scope {
 struct Family {
   std::string name;
   std::function<std::vector<Study>(const Scope&)> studies;
+  bool draws = false;  ///< needs OpenGL
 };
 
 /// All families, in the order of the report.
@@ -81,6 +82,13 @@ std::vector<Study> height_studies(const Scope& scope);
 std::vector<Study> storage_studies(const Scope& scope);
 std::vector<Study> conversion_studies(const Scope& scope);
 std::vector<Study> cover_studies(const Scope& scope);
+std::vector<Study> position_studies(const Scope& scope);
+std::vector<Study> detail_studies(const Scope& scope);
+std::vector<Study> morph_studies(const Scope& scope);
+std::vector<Study> depth_studies(const Scope& scope);
+std::vector<Study> window_studies(const Scope& scope);
+std::vector<Study> sky_studies(const Scope& scope);
+std::vector<Study> shading_studies(const Scope& scope);
 
 /// Takes what work comes to, so that no compiler leaves it out.
 inline void keep(double result) {

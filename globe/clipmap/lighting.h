@@ -30,6 +30,15 @@ struct ShadingNodes {
 /// u x t1. East on the diamond's central meridian; nowhere in the diamond along u, the poles included.
 dvec3 shading_axis(int d);
 
+/// Ground as a texel has it, before it is rounded to bytes, and the light that leaves it again;
+/// shaders/lib/lit_ground.glsl, compiled here.
+///
+/// @param albedo  linear
+/// @param up      cosine of the slope
+/// @param facing  cosine between the ground's normal and the sun
+glm::vec4 lit_texel(const glm::vec3& albedo, float up, float facing);
+glm::vec3 light_of(const glm::vec4& lit, const glm::vec3& sunlight, const glm::vec3& skylight);
+
 /// The nodes `part` of `held`, lit: what shaders/lib/lit_ground.glsl takes apart with one look-up a pixel,
 /// where albedo and normal would take two.
 ///
