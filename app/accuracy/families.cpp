@@ -8,8 +8,8 @@ std::vector<Family> families() {
           {"covers", cover_studies},        {"positions", position_studies, true},
           {"detail", detail_studies, true}, {"morph", morph_studies, true},
           {"depth", depth_studies, true},   {"windows", window_studies, true},
-          {"sky", sky_studies, true},
-          {"shading", shading_studies, true}};
+          {"sky", sky_studies, true},       {"shading", shading_studies, true},
+          {"samples", sample_studies, true}};
 }
 
 }  // namespace app::accuracy

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/mat4x4.hpp>
 #include <utility>
 
@@ -17,7 +18,7 @@ constexpr double kNear = 0.05;         ///< metres
 
 /// Mirrors `Eye` in shaders/accuracy/position.vert (std140).
 struct EyeBlock {
-  glm::mat4 clip_from_relative;
+  glm::mat4 clip_from_relative{1.0f};
   glm::vec4 high{0.0f}, low{0.0f};
   glm::uvec4 low_words{0}, high_words{0};
   glm::vec4 offset{0.0f};
@@ -109,14 +110,14 @@ YardstickMesh::YardstickMesh(std::shared_ptr<globe::gl::Context> context, Yardst
                                 ? Attribute{half, 3, GL_UNSIGNED_INT, 12 * half, Attribute::Kind::kInteger}
                                 : Attribute{half, 3, GL_FLOAT, 12 * half});
   }
-  EyeBlock eye{glm::mat4(globe::render::clip_from_relative(camera, kNear))};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto parts = words_of(yardstick, camera.position[axis]);
-    eye.high[axis] = std::bit_cast<float>(parts[0]);
-    eye.low[axis] = std::bit_cast<float>(parts[1]);
-    eye.high_words[axis] = parts[0];
-    eye.low_words[axis] = parts[1];
-  }
+  const auto x = words_of(yardstick, camera.position.x), y = words_of(yardstick, camera.position.y),
+             z = words_of(yardstick, camera.position.z);
+  EyeBlock eye;
+  eye.clip_from_relative = glm::mat4(globe::render::clip_from_relative(camera, kNear));
+  eye.high_words = {x[0], y[0], z[0], 0};
+  eye.low_words = {x[1], y[1], z[1], 0};
+  eye.high = glm::uintBitsToFloat(eye.high_words);
+  eye.low = glm::uintBitsToFloat(eye.low_words);
   eye.offset = glm::vec4(glm::vec3(anchor - camera.position), 0.0f);
   eye_ = globe::gl::Buffer(sizeof eye, &eye);
 }

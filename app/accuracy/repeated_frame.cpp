@@ -11,8 +11,9 @@ namespace app::accuracy {
 
 RepeatedFrame::RepeatedFrame(std::shared_ptr<globe::gl::Context> context,
                              const std::shared_ptr<const globe::planet::Surface>& surface,
-                             const globe::render::RenderSettings& settings, int width, int height)
-    : context_(std::move(context)), renderer_(surface, settings), target_(width, height) {
+                             const globe::render::RenderSettings& settings, int width, int height,
+                             const globe::gl::FramebufferFormat& format)
+    : context_(std::move(context)), renderer_(surface, settings), target_(width, height, format) {
   renderer_.warm_up(target_);
 }
 
@@ -24,6 +25,7 @@ double RepeatedFrame::draw_ms(const globe::render::Camera& camera, const glm::dv
   glFinish();
   const auto begin = std::chrono::steady_clock::now();
   stats_ = renderer_.draw(camera, sun, true, target_);
+  target_.resolve();
   glFinish();
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }

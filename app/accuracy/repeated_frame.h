@@ -15,7 +15,8 @@ class RepeatedFrame {
  public:
   RepeatedFrame(std::shared_ptr<globe::gl::Context> context,
                 const std::shared_ptr<const globe::planet::Surface>& surface,
-                const globe::render::RenderSettings& settings, int width, int height);
+                const globe::render::RenderSettings& settings, int width, int height,
+                const globe::gl::FramebufferFormat& format = {});
 
   /// Milliseconds of one frame, until the driver has drawn it. A camera other than the last one's is first
   /// drawn without being measured.

@@ -86,6 +86,7 @@ std::vector<Study> position_studies(const Scope& scope);
 std::vector<Study> detail_studies(const Scope& scope);
 std::vector<Study> morph_studies(const Scope& scope);
 std::vector<Study> depth_studies(const Scope& scope);
+std::vector<Study> sample_studies(const Scope& scope);
 std::vector<Study> window_studies(const Scope& scope);
 std::vector<Study> sky_studies(const Scope& scope);
 std::vector<Study> shading_studies(const Scope& scope);

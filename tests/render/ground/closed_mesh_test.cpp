@@ -14,6 +14,7 @@ using globe::clipmap::Positions;
 using globe::clipmap::Settings;
 using views::Camera;
 using views::Place;
+using views::topology;
 using views::Topology;
 
 Camera camera_at(const Place& place, double h_m) {
