@@ -3,16 +3,36 @@
 namespace app::accuracy {
 
 std::vector<Family> families() {
-  return {{"geometry",
-           geometry_studies,
-           {},
-           {"geometry.sine_cosine", "geometry.arctangent", "geometry.midpoints"}},
-          {"geodesics", geodesic_studies, {"--ellipsoid"}, {"geodesics.ellipsoid", "geodesics.sphere"}},
-          {"heights", height_studies, {"--interpolation"}},
-          {"storage", storage_studies, {}, {"storage.heights"}},
-          {"conversion", conversion_studies, {"--filter", "--as-thesis", "convert --level", "inset --level"}},
-          {"questions", question_studies, {"summary --level", "sight --level", "profile --count"}},
-          {"covers", cover_studies, {"cover --level", "cover --max-ranges"}}};
+  return {{.name = "geometry",
+           .studies = geometry_studies,
+           .approximations = {"geometry.sine_cosine", "geometry.arctangent", "geometry.midpoints"}},
+          {.name = "geodesics",
+           .studies = geodesic_studies,
+           .knobs = {"--ellipsoid"},
+           .approximations = {"geodesics.ellipsoid", "geodesics.sphere"}},
+          {.name = "heights", .studies = height_studies, .knobs = {"--interpolation"}},
+          {.name = "storage", .studies = storage_studies, .approximations = {"storage.heights"}},
+          {.name = "conversion",
+           .studies = conversion_studies,
+           .knobs = {"--filter", "--as-thesis", "convert --level", "inset --level"}},
+          {.name = "questions",
+           .studies = question_studies,
+           .knobs = {"summary --level", "sight --level", "profile --count"}},
+          {.name = "covers", .studies = cover_studies, .knobs = {"cover --level", "cover --max-ranges"}},
+          {.name = "positions", .studies = position_studies, .knobs = {"--positions"}, .draws = true},
+          {.name = "detail", .studies = detail_studies, .knobs = {"--detail"}, .draws = true},
+          {.name = "morph", .studies = morph_studies, .knobs = {"--morph"}, .draws = true},
+          {.name = "depth", .studies = depth_studies, .approximations = {"depth"}, .draws = true},
+          {.name = "windows", .studies = window_studies, .knobs = {"--window"}, .draws = true},
+          {.name = "sky",
+           .studies = sky_studies,
+           .approximations = {"sky.steps", "sky.model", "sky.columns", "sky.map", "sky.haze"},
+           .draws = true},
+          {.name = "shading",
+           .studies = shading_studies,
+           .approximations = {"shading.tone", "shading.texels", "shading.normals"},
+           .draws = true},
+          {.name = "samples", .studies = sample_studies, .knobs = {"--samples"}, .draws = true}};
 }
 
 }  // namespace app::accuracy

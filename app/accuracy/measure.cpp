@@ -17,13 +17,13 @@ struct Rounds {
 constexpr Rounds kQuick{7, 31, std::chrono::seconds(4)};
 constexpr Rounds kFull{31, 101, std::chrono::seconds(60)};
 
-CostFigure figure_of(const std::vector<double>& costs) {
+}  // namespace
+
+CostFigure cost_figure(const std::vector<double>& costs) {
   const Interval interval = median_interval(costs);
   return {percentile(costs, 50), percentile(costs, 25), percentile(costs, 75),
           interval.low,          interval.high,         costs.size()};
 }
-
-}  // namespace
 
 std::vector<bool> pareto_front(const std::vector<double>& errors, const std::vector<double>& costs) {
   std::vector<bool> front(errors.size());
@@ -49,7 +49,8 @@ MeasuredStudy measure(Study study, const Scope& scope) {
   MeasuredStudy measured{std::move(study), {}, {}};
   std::vector<double> errors, medians;
   for (std::size_t k = 0; k < costs.size(); ++k) {
-    measured.costs.push_back(figure_of(costs[k]));
+    measured.costs.push_back(cost_figure(costs[k]));
+    measured.study.settings[k].cost = nullptr;  // and what it holds: windows, contexts
     errors.push_back(measured.study.settings[k].error.max);
     medians.push_back(measured.costs.back().median);
   }

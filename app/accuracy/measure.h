@@ -16,6 +16,9 @@ struct CostFigure {
   std::size_t runs = 0;
 };
 
+/// Median, quartiles and interval of what several runs cost; at least one.
+CostFigure cost_figure(const std::vector<double>& costs);
+
 /// A study with its costs, setting by setting.
 struct MeasuredStudy {
   Study study;

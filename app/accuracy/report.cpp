@@ -28,7 +28,7 @@ std::string padded(std::string text, std::size_t width) {
   // Counted in characters, not bytes: continuation bytes of UTF-8 take no room.
   const auto shown = static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-  if (shown < width) text.append(width - shown, ' ');
+  text.append(shown < width ? width - shown : 1, ' ');
   return text;
 }
 

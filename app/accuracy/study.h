@@ -72,7 +72,8 @@ struct Family {
   std::string name;
   std::function<std::vector<Study>(const Scope&)> studies;
   std::vector<std::string> knobs = {};           ///< Study::knob of its studies, known without running them
-  std::vector<std::string> approximations = {};  ///< names of its studies of what no option turns
+  std::vector<std::string> approximations = {};  ///< what no option turns: how names of its studies begin
+  bool draws = false;                            ///< needs OpenGL
 };
 
 /// All families, in the order of the report.
@@ -85,6 +86,14 @@ std::vector<Study> storage_studies(const Scope& scope);
 std::vector<Study> conversion_studies(const Scope& scope);
 std::vector<Study> question_studies(const Scope& scope);
 std::vector<Study> cover_studies(const Scope& scope);
+std::vector<Study> position_studies(const Scope& scope);
+std::vector<Study> detail_studies(const Scope& scope);
+std::vector<Study> morph_studies(const Scope& scope);
+std::vector<Study> depth_studies(const Scope& scope);
+std::vector<Study> sample_studies(const Scope& scope);
+std::vector<Study> window_studies(const Scope& scope);
+std::vector<Study> sky_studies(const Scope& scope);
+std::vector<Study> shading_studies(const Scope& scope);
 
 /// Takes what work comes to, so that no compiler leaves it out.
 inline void keep(double result) {

@@ -13,9 +13,6 @@ namespace {
 namespace shader {
 using namespace glm;
 #include "shaders/lib/lit_ground.glsl"
-
-// Used by the shaders alone.
-[[maybe_unused]] constexpr auto kUnused = &ground_light;
 }  // namespace shader
 
 /// The sun's parts along u, t1 and t2 over a rectangle of nodes: exact at the corners of blocks, bilinear
@@ -75,6 +72,14 @@ std::uint8_t code(float value) { return static_cast<std::uint8_t>(std::min(value
 glm::vec2 decode_normal(const glm::u16vec2& normal) { return glm::vec2(normal) * (2.0f / 65534.0f) - 1.0f; }
 
 }  // namespace
+
+glm::vec3 light_of(const glm::vec4& lit, const glm::vec3& sunlight, const glm::vec3& skylight) {
+  return shader::ground_light(lit, sunlight * shader::kSunRange, skylight);
+}
+
+glm::vec4 lit_texel(const glm::vec3& albedo, float up, float facing) {
+  return shader::lit_ground(albedo, up, facing);
+}
 
 void ShadingNodes::resize(const NodeRect& rect) {
   const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());

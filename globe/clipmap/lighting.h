@@ -19,6 +19,7 @@ struct Lighting {
 };
 
 /// What the ground of a rectangle of shading nodes is, whatever light falls on it: row by row, i fastest.
+/// @approximation shading.normals
 struct ShadingNodes {
   std::vector<glm::u8vec4> albedo;   ///< square root of linear light; alpha: 255 where there is open water
   std::vector<glm::u16vec2> normal;  ///< normal's components along the shading frame, [-1, 1] as unorm16
@@ -29,6 +30,16 @@ struct ShadingNodes {
 /// Axis from which the shading frame of a diamond is made: t1 is its part perpendicular to the normal u, t2 =
 /// u x t1. East on the diamond's central meridian; nowhere in the diamond along u, the poles included.
 dvec3 shading_axis(int d);
+
+/// @approximation shading.texels
+/// Ground as a texel has it, before it is rounded to bytes, and the light that leaves it again;
+/// shaders/lib/lit_ground.glsl, compiled here.
+///
+/// @param albedo  linear
+/// @param up      cosine of the slope
+/// @param facing  cosine between the ground's normal and the sun
+glm::vec4 lit_texel(const glm::vec3& albedo, float up, float facing);
+glm::vec3 light_of(const glm::vec4& lit, const glm::vec3& sunlight, const glm::vec3& skylight);
 
 /// The nodes `part` of `held`, lit: what shaders/lib/lit_ground.glsl takes apart with one look-up a pixel,
 /// where albedo and normal would take two.

@@ -6,18 +6,70 @@
 #include <glm/vec4.hpp>
 
 namespace globe::render {
+namespace {
+
+constexpr double kTwilightCosine = 0.3;    ///< of the sun's zenith angle: lower, the haze is sampled in full
+constexpr double kTwilightHeight = 300.0;  ///< km; from higher up the terminator is a narrow band
+
+}  // namespace
+
 namespace shader {
 
 using namespace glm;
 
 #define OUT(type) type&
 #include "shaders/lib/atmosphere.glsl"
+#include "shaders/lib/sky_map.glsl"
 #undef OUT
 
 }  // namespace shader
 
 glm::vec3 sun_transmittance(float height_km, float cos_sun, float ground_radius_km) {
   return shader::sun_transmittance(height_km, cos_sun, ground_radius_km);
+}
+
+glm::vec4 sky_texel(const AirRay& ray, int steps) {
+  return shader::sky_light(ray.eye, ray.direction, ray.from, ray.to, ray.sun, ray.ground, steps);
+}
+
+glm::vec3 with_mie(const glm::vec4& texel, float cos_angle) { return shader::with_mie(texel, cos_angle); }
+
+glm::vec3 sky_light(const AirRay& ray, int steps) {
+  return with_mie(sky_texel(ray, steps), glm::dot(ray.direction, ray.sun));
+}
+
+glm::vec2 sky_map_place(const glm::vec2& cosines, float eye_radius_km, float ground_radius_km) {
+  return {shader::sky_column(cosines.x),
+          shader::sky_row(cosines.y, shader::sky_bounds(eye_radius_km, ground_radius_km,
+                                                        ground_radius_km + shader::kAirTop))};
+}
+
+glm::vec2 sky_map_cosines(const glm::vec2& place, float eye_radius_km, float ground_radius_km) {
+  return {shader::cos_azimuth_of_column(place.x),
+          shader::cos_zenith_of_row(place.y, shader::sky_bounds(eye_radius_km, ground_radius_km,
+                                                                ground_radius_km + shader::kAirTop))};
+}
+
+glm::vec3 haze(const AirRay& ray, int steps) {
+  const auto sun_at = [&](float distance, float& cos_sun) {
+    const glm::vec3 place = ray.eye + ray.direction * distance;
+    const float radius = glm::length(place);
+    cos_sun = glm::dot(place, ray.sun) / radius;
+    return sun_transmittance(glm::max(radius - ray.ground, 0.0f), cos_sun, ray.ground);
+  };
+  float cos_sun_at_eye = 0, cos_sun = 0;
+  const glm::vec3 at_eye = sun_at(0.0f, cos_sun_at_eye), at_end = sun_at(ray.to, cos_sun);
+  glm::vec3 transmitted;
+  return shader::haze(ray.eye, ray.direction, ray.from, ray.to, ray.sun, at_eye, at_end, cos_sun, ray.ground,
+                      steps, transmitted);
+}
+
+bool is_twilight(double height_km, double cos_sun) {
+  return cos_sun < kTwilightCosine && height_km < kTwilightHeight;
+}
+
+float air_column(float height_km, float cos_zenith, float ground_radius_km, float scale_height_km) {
+  return shader::air_column(height_km, cos_zenith, ground_radius_km, scale_height_km);
 }
 
 float air_top_km() { return shader::kAirTop; }

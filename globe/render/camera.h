@@ -34,7 +34,7 @@ dvec3 direction_through(const Camera& camera, double x, double y);
 
 /// Clip space of camera-relative positions: reversed depth with the far plane at infinity, near / distance in
 /// [0, 1] (glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE)). No translation: positions come relative to the
-/// camera.
+/// camera. @approximation depth
 dmat4 clip_from_relative(const Camera& camera, double near_m);
 
 /// Near plane for a camera at a height above ground: min(0.05 m, height / 4), scaled by the planet's radius.

@@ -50,8 +50,9 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
   ground_array_.set_attribute(1, {1, 4, GL_INT, 0, gl::Attribute::Kind::kInteger});
   ground_array_.set_indices(indices_);
   const bool tinted = settings_.show != Show::kGround || settings_.wireframe;
-  for (std::size_t k = 0; k < kLooks.size(); ++k) ground_[k] = ground_program(kLooks[k], textures(), tinted);
-  if (!settings_.background) sky_.emplace(has_air(surface_->info()));
+  for (std::size_t k = 0; k < kLooks.size(); ++k)
+    ground_[k] = ground_program(kLooks[k], textures(), tinted, settings_.air.haze);
+  if (!settings_.background) sky_.emplace(has_air(surface_->info()), settings_.air);
 }
 
 double GlobeRenderer::height_above_ground(const glm::dvec3& position, bool wait) const {

@@ -13,6 +13,7 @@
 #include "globe/gl/vertex_array.h"
 #include "globe/planet/surface.h"
 #include "globe/render/admission.h"
+#include "globe/render/air.h"
 #include "globe/render/camera.h"
 #include "globe/render/draw_list.h"
 #include "globe/render/loader.h"
@@ -31,7 +32,8 @@ struct RenderSettings {
   std::optional<glm::vec3> background;  ///< sRGB in [0, 1]; no sky then
   bool cull_faces = true;
   bool cull_patches = true;
-  int max_level = 26;      ///< finest grid level of triangles
+  int max_level = 26;  ///< finest grid level of triangles
+  AirSteps air{};
   bool load_ahead = true;  ///< frames that do not wait load what the camera's motion leads to
 };
 

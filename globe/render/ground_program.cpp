@@ -3,20 +3,14 @@
 #include <string>
 
 namespace globe::render {
-namespace {
-
-constexpr int kHazeSteps = 4;  ///< samples of the air between the eye and a vertex
-
-}  // namespace
-
-gl::Program ground_program(const Look& look, const ClipmapTextures& textures, bool tinted,
+gl::Program ground_program(const Look& look, const ClipmapTextures& textures, bool tinted, int haze_steps,
                            const gl::ShaderReader& reader) {
   gl::ProgramSources sources;
   sources.files = {"clipmap.vert", "clipmap.frag"};
   sources.reader = reader;
   sources.defines = textures.defines();
   sources.defines.push_back("MAX_SLOTS " + std::to_string(kMaxSlots));
-  sources.defines.push_back("HAZE_STEPS " + std::to_string(kHazeSteps));
+  sources.defines.push_back("HAZE_STEPS " + std::to_string(haze_steps));
   if (look.kind != Kind::kPlain) sources.defines.push_back("MORPH");
   if (look.kind == Kind::kRim) sources.defines.push_back("RIM");
   if (look.shading != Shading::kCoarse) sources.defines.push_back("SHADE_FINE");

@@ -9,7 +9,8 @@ namespace globe::render {
 /// The program that draws patches of one look from such textures.
 ///
 /// @param tinted  with the uniforms `overlay` and `show` of shaders/clipmap.frag
-gl::Program ground_program(const Look& look, const ClipmapTextures& textures, bool tinted,
+/// @param haze_steps  AirSteps::haze
+gl::Program ground_program(const Look& look, const ClipmapTextures& textures, bool tinted, int haze_steps,
                            const gl::ShaderReader& reader = gl::read_shader);
 
 }  // namespace globe::render

@@ -12,17 +12,15 @@
 namespace globe::render {
 namespace {
 
-constexpr int kMapSteps = 16;        ///< samples of the air along a ray of the map
-constexpr glm::ivec2 kMap{32, 128};  ///< texels across azimuth and up from the horizon
-constexpr int kCapSides = 64;        ///< of the polygon around a disc of the sky
+constexpr int kCapSides = 64;  ///< of the polygon around a disc of the sky
 constexpr float kOutside =
     1.05f;  ///< radii of the air: from nearer the disc of air would be as good as the screen
 constexpr float kSunRadius = 0.0047f;  ///< radians, rounded up: sky.frag draws the disc's edge
 
-gl::Program program_of(const char* fragment_shader) {
+gl::Program program_of(const char* fragment_shader, int steps) {
   gl::ProgramSources sources;
   sources.files = {"sky.vert", fragment_shader};
-  sources.defines = {"CAP_SIDES " + std::to_string(kCapSides), "SKY_STEPS " + std::to_string(kMapSteps)};
+  sources.defines = {"CAP_SIDES " + std::to_string(kCapSides), "SKY_STEPS " + std::to_string(steps)};
   return gl::Program(sources);
 }
 
@@ -34,10 +32,11 @@ glm::vec4 cap_around(const glm::vec3& axis, float tangent) {
 
 }  // namespace
 
-Sky::Sky(bool air) : array_(gl::VertexArray::create()), program_(program_of("sky.frag")) {
+Sky::Sky(bool air, const AirSteps& steps)
+    : texels_(steps.map), array_(gl::VertexArray::create()), program_(program_of("sky.frag", steps.sky)) {
   if (!air) return;
-  map_program_ = program_of("sky_map.frag");
-  map_ = gl::Framebuffer(kMap.x, kMap.y, {1, GL_RGBA16F, GL_DEPTH_COMPONENT32F});
+  map_program_ = program_of("sky_map.frag", steps.sky);
+  map_ = gl::Framebuffer(texels_.x, texels_.y, {1, GL_RGBA16F, GL_DEPTH_COMPONENT32F});
   map_.set_color_filter(GL_LINEAR);
 }
 
@@ -48,7 +47,7 @@ void Sky::prepare() {
   glDisable(GL_CULL_FACE);
   array_.bind();
   map_program_->use();
-  map_program_->set(0, glm::vec2(kMap));
+  map_program_->set(0, glm::vec2(texels_));
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -59,7 +58,7 @@ void Sky::draw(const ViewBlock& view) const {
   array_.bind();
   if (map_program_) map_.color().bind(4);
   program_.use();
-  program_.set(0, glm::vec2(kMap));
+  program_.set(0, glm::vec2(texels_));
 
   const glm::vec3 eye(view.eye_km);
   const float distance = glm::length(eye);

@@ -6,6 +6,7 @@
 #include "globe/gl/framebuffer.h"
 #include "globe/gl/program.h"
 #include "globe/gl/vertex_array.h"
+#include "globe/render/air.h"
 #include "globe/render/view_block.h"
 
 namespace globe::render {
@@ -17,7 +18,7 @@ namespace globe::render {
 class Sky {
  public:
   /// A GL context must be current and stay so.
-  explicit Sky(bool air);
+  Sky(bool air, const AirSteps& steps);
 
   /// Fills the map of the sky as seen from the eye; changes the bound framebuffer. The view's block must be
   /// bound.
@@ -29,6 +30,7 @@ class Sky {
  private:
   void draw_cap(const glm::vec4& cap) const;
 
+  glm::ivec2 texels_;  ///< of the map
   gl::VertexArray array_;
   gl::Program program_;
   std::optional<gl::Program> map_program_;  ///< none where there is no air

@@ -10,8 +10,6 @@ namespace {
 
 constexpr float kSunlight = 5.0f;  ///< sunlight above the air, in units of the tone curve's white
 constexpr float kExposure = 1.0f;
-constexpr double kTwilightCosine = 0.3;    ///< of the sun's zenith angle: lower, the haze is sampled in full
-constexpr double kTwilightHeight = 300.0;  ///< km; from higher up the terminator is a narrow band
 
 }  // namespace
 
@@ -39,10 +37,9 @@ ViewBlock view_block(const Camera& camera, const planet::Surface& surface, const
   block.sun_at_eye = glm::vec4(1.0f, 1.0f, 1.0f, 0.0f);
   if (has_air(surface.info())) {
     const double cos_sun = glm::dot(glm::normalize(eye_km), sun);
-    const bool twilight = cos_sun < kTwilightCosine && height_km < kTwilightHeight;
     block.sun_at_eye = glm::vec4(sun_transmittance(static_cast<float>(height_km), static_cast<float>(cos_sun),
                                                    static_cast<float>(radius * 1e-3)),
-                                 twilight ? 1.0f : 0.0f);
+                                 is_twilight(height_km, cos_sun) ? 1.0f : 0.0f);
   }
   return block;
 }

@@ -8,6 +8,7 @@
 
 #include "globe/clipmap/morph.h"
 #include "globe/gl/vertex_array.h"
+#include "globe/render/air.h"
 #include "globe/render/ground_program.h"
 #include "tests/render/ground/shader_variant.h"
 
@@ -36,7 +37,8 @@ struct Ground {
     array.set_attribute(0, {0, 2, GL_UNSIGNED_BYTE, 0, globe::gl::Attribute::Kind::kInteger});
     array.set_indices(indices);
     for (std::size_t k = 0; k < kLooks.size(); ++k)
-      programs[k] = globe::render::ground_program(kLooks[k], scene.textures, false, reader);
+      programs[k] = globe::render::ground_program(kLooks[k], scene.textures, false,
+                                                  globe::render::AirSteps{}.haze, reader);
   }
 
   void add_instances(const Buffer& instances) {

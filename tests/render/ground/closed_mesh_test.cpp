@@ -1,18 +1,20 @@
 // H15: the triangles the GPU draws are one closed surface. H3: every pass and program has them in the same
 // place.
 
+#include "app/accuracy/mesh_probe.h"
 #include "tests/hard/table.h"
-#include "tests/render/ground/mesh_probe.h"
 #include "tests/render/ground/shader_variant.h"
 #include "tests/render/ground/topology.h"
+#include "tests/render/ground/views.h"
 
 namespace {
 
+using app::accuracy::MeshProbe;
 using globe::clipmap::Positions;
 using globe::clipmap::Settings;
 using views::Camera;
-using views::MeshProbe;
 using views::Place;
+using views::topology;
 using views::Topology;
 
 Camera camera_at(const Place& place, double h_m) {

@@ -2,9 +2,10 @@
 
 #include "globe/render/draw_list.h"
 
+#include "app/accuracy/mesh_probe.h"
 #include "globe/clipmap/morph.h"
 #include "tests/hard/table.h"
-#include "tests/render/ground/mesh_probe.h"
+#include "tests/render/ground/views.h"
 
 namespace {
 
@@ -42,7 +43,7 @@ struct DrawnPatch {
 };
 
 template <class Visit>
-void for_each_patch(const views::MeshProbe& probe, const DrawList& list, const Visit& visit) {
+void for_each_patch(const app::accuracy::MeshProbe& probe, const DrawList& list, const Visit& visit) {
   for (const Batch& batch : list.batches) {
     for (const glm::ivec4& instance : batch.instances) {
       const SlotBlock& slot = list.slots[static_cast<std::size_t>(instance.w)];
@@ -83,7 +84,7 @@ TEST_F(GlTest, PatchesShowOneLevelWhereNoVertexCallsForTwo) {
   views::RenderSettings render;
   render.clipmap = settings;
   const views::GlobeRenderer renderer(surface, render);
-  views::MeshProbe probe(surface, settings);
+  app::accuracy::MeshProbe probe(surface, settings);
   const auto band = globe::clipmap::morph_band(settings);
   std::size_t wrong = 0, single = 0, both = 0, needless = 0;
   for (const Camera& camera : cameras(renderer)) {
@@ -126,7 +127,7 @@ TEST_F(GlTest, PatchesShowOneLevelWhereNoVertexCallsForTwo) {
 TEST_F(GlTest, TheSunGlintsOnlyInPatchesDrawnForIt) {
   const auto surface = views::builtin_planet();
   const Settings settings = Settings::for_detail(32, 1);
-  views::MeshProbe probe(surface, settings);
+  app::accuracy::MeshProbe probe(surface, settings);
   double strongest = 0, shown = 0;
   std::size_t drawn_for_it = 0, all = 0;
   for (std::size_t k = 0; k < (hard::full() ? 120u : 24u); ++k) {

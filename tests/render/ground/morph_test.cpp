@@ -3,39 +3,27 @@
 #include <map>
 #include <tuple>
 
+#include "app/accuracy/pop.h"
 #include "globe/clipmap/morph.h"
 #include "tests/hard/directions.h"
 #include "tests/hard/table.h"
-#include "tests/render/ground/mesh_probe.h"
 #include "tests/render/ground/shader_variant.h"
+#include "tests/render/ground/views.h"
 
 namespace {
 
+using app::accuracy::is_odd;
+using app::accuracy::MeshProbe;
+using app::accuracy::NodeName;
+using app::accuracy::on_screen;
+using app::accuracy::places;
 using globe::clipmap::kSubcell;
 using globe::planet::Node;
 using views::Camera;
 using views::dvec3;
-using views::MeshProbe;
 
-constexpr double kPixelsPerRadian = 360.0 / 0.57735026918962576;  ///< 1280x720, 60 degrees high
-constexpr double kSlack = 0.02;                                   ///< pixels
+constexpr double kSlack = 0.02;  ///< pixels
 constexpr double kPop = 1.0;
-
-using NodeName = std::array<int, 4>;
-
-NodeName name_of(const Node& node) {
-  const auto key = globe::planet::octahedral_key(node);
-  return {node.level, key.x, key.y, key.z};
-}
-
-/// Camera-relative places of the nodes a frame draws.
-std::map<NodeName, std::pair<Node, dvec3>> places(const MeshProbe& probe, const Camera& camera, float fade) {
-  std::map<NodeName, std::pair<Node, dvec3>> result;
-  for (const auto& v : probe.triangles(camera, fade, MeshProbe::Space::kRelative)) {
-    if (!v.on_rim) result[name_of(v.node)] = {v.node, dvec3(v.seen)};
-  }
-  return result;
-}
 
 dvec3 exact_place(const views::Surface& surface, const Node& node) {
   return globe::geo::ecef_from_normal(surface.ellipsoid(), globe::planet::node_direction(node),
@@ -48,12 +36,6 @@ dvec3 detail_of(const views::Surface& surface, const Node& node) {
   return exact_place(surface, node) -
          0.5 * (exact_place(surface, {node.d, node.level, ends[0].x, ends[0].y}) +
                 exact_place(surface, {node.d, node.level, ends[1].x, ends[1].y}));
-}
-
-bool is_odd(const Node& node) { return ((node.i | node.j) & 1) != 0; }
-
-double on_screen(const dvec3& movement, const dvec3& relative) {
-  return glm::length(movement) / glm::length(relative) * kPixelsPerRadian;
 }
 
 struct Worst {
@@ -129,52 +111,23 @@ TEST_F(GlTest, H17NoVertexMovesMoreThanTheMorphAllows) {
   EXPECT_LE(worst.vanished, kSlack);
 }
 
-/// Between a frame just above and one just below the height at which a level is admitted, how far its odd
-/// vertices lie from the edges they halve, pixels.
-double pop(const globe::gl::ShaderReader& reader, float fade, std::size_t& vertices) {
-  const auto surface = views::builtin_planet();
+/// The largest pop where levels are admitted over the hard places, pixels.
+double pop(float fade, std::size_t& vertices) {
   const auto settings = globe::clipmap::Settings::for_detail(16, 0);
-  MeshProbe probe(surface, settings, reader);
-  double worst = 0;
-  for (std::size_t p = 0; p < views::hard_places().size(); ++p) {
-    const auto& place = views::hard_places()[p];
-    for (const int level : {settings.base_level + 1, settings.base_level + 4, settings.base_level + 9}) {
-      const double above = surface->root_edge() * settings.s / std::exp2(level);
-      globe::geo::Geodetic at{place.lat_deg, place.lon_deg, 0};
-      const dvec3 u = globe::geo::normal_from_degrees(at.lat_deg, at.lon_deg);
-      at.h_m = std::max(surface->height(u, level), 0.0) + above;
-      const Camera camera =
-          globe::render::make_camera(surface->ellipsoid(), at, 0.0, -60.0, 60.0, 16.0 / 9.0);
-      probe.load(camera.position, level - 1);
-      const auto above_it = places(probe, camera, 0.0f);
-      probe.load(camera.position, level);
-      for (const auto& [name, drawn] : places(probe, camera, fade)) {
-        const auto& [node, relative] = drawn;
-        if (node.level != level) continue;
-        ++vertices;
-        dvec3 was;
-        if (is_odd(node)) {
-          const auto ends = globe::planet::halved_edge(node.i, node.j);
-          const auto a = above_it.find(name_of({node.d, level - 1, ends[0].x / 2, ends[0].y / 2}));
-          const auto b = above_it.find(name_of({node.d, level - 1, ends[1].x / 2, ends[1].y / 2}));
-          if (a == above_it.end() || b == above_it.end()) continue;
-          was = 0.5 * (a->second.second + b->second.second);
-        } else {
-          const auto same = above_it.find(name_of({node.d, level - 1, node.i / 2, node.j / 2}));
-          if (same == above_it.end()) continue;
-          was = same->second.second;
-        }
-        worst = std::max(worst, on_screen(relative - was, was));
-      }
-    }
+  MeshProbe probe(views::builtin_planet(), settings);
+  app::accuracy::ErrorSum sum;
+  for (const auto& place : views::hard_places()) {
+    for (const int level : {settings.base_level + 1, settings.base_level + 4, settings.base_level + 9})
+      vertices += app::accuracy::add_pops(*views::builtin_planet(), probe, {place.lat_deg, place.lon_deg, 0},
+                                          level, fade, sum);
   }
-  return worst;
+  return sum.figure().max;
 }
 
 TEST_F(GlTest, H17ALevelIsAdmittedAndLetGoWithoutAPop) {
   std::size_t vertices = 0;
-  const double seen = pop(globe::gl::read_shader, 1.0f, vertices);
-  const double off = pop(globe::gl::read_shader, 0.0f, vertices);
+  const double seen = pop(1.0f, vertices);
+  const double off = pop(0.0f, vertices);
   hard::report("H17", "pop where a level is admitted, " + std::to_string(vertices / 2) + " vertices", "1 px",
                hard::figure(seen) + " px");
   hard::report("H17", "negative control: admitted without a fade", "> 1 px", hard::figure(off) + " px");

@@ -2,15 +2,17 @@
 
 #include <random>
 
+#include "app/accuracy/position_error.h"
 #include "tests/hard/table.h"
-#include "tests/render/ground/position_error.h"
+#include "tests/render/ground/tour.h"
+#include "tests/render/ground/views.h"
 
 namespace {
 
+using app::accuracy::MeshProbe;
+using app::accuracy::Sighting;
 using views::Camera;
 using views::dvec3;
-using views::MeshProbe;
-using views::Sighting;
 
 constexpr double kMaxError = 0.1;  ///< pixels
 constexpr double kRmsError = 0.02;
@@ -43,7 +45,8 @@ TEST_F(GlTest, H1VerticesLieWhereDoublePrecisionPutsThem) {
     const std::size_t cameras = detail == 64 ? hard::cases(100) : hard::cases(600);
     for (std::size_t k = 0; k < cameras; ++k) {
       const auto [camera, above] = views::tour_stop(*surface, k, cameras, random);
-      views::see_vertices(*surface, probe, camera, above, 2000, [&](const Sighting& s) { errors.add(s); });
+      app::accuracy::see_vertices(*surface, probe, camera, above, 2000,
+                                  [&](const Sighting& s) { errors.add(s); });
     }
   }
   const double rms = std::sqrt(errors.sum_px2 / static_cast<double>(errors.count));
@@ -76,8 +79,8 @@ TEST_F(GlTest, H2AMillimetreOfTheCameraMovesVerticesByThatMuch) {
   for (const dvec3& u :
        {globe::geo::normal_from_degrees(0.013, 89.983), globe::geo::normal_from_degrees(35.3, 45.1),
         globe::geo::normal_from_degrees(90.0, 0.0)}) {
-    Camera camera = views::camera_over(*surface, u, 1.7, 70.0, -6.0);
-    probe.load(camera.position, views::finest_for(probe, *surface, 1.7));
+    Camera camera = app::accuracy::camera_over(*surface, u, 1.7, 70.0, -6.0);
+    probe.load(camera.position, app::accuracy::finest_for(probe, *surface, 1.7));
     const dvec3 step = glm::normalize(camera.forward + 0.4 * camera.right + 0.2 * camera.up) * 1e-3;
     std::vector<std::size_t> tracked;
     std::vector<dvec3> places;
@@ -86,8 +89,8 @@ TEST_F(GlTest, H2AMillimetreOfTheCameraMovesVerticesByThatMuch) {
       const auto clip = probe.triangles(camera, 0.0f, MeshProbe::Space::kClip);
       if (n == 0) {
         for (std::size_t k = 0; k < clip.size(); k += 5) {
-          const dvec3 place = views::exact_place(*surface, probe, clip[k]);
-          if (!views::pixel(camera, place - camera.position)) continue;
+          const dvec3 place = app::accuracy::exact_place(*surface, probe, clip[k]);
+          if (!app::accuracy::pixel(camera, place - camera.position)) continue;
           tracked.push_back(k);
           places.push_back(place);
         }
@@ -95,15 +98,16 @@ TEST_F(GlTest, H2AMillimetreOfTheCameraMovesVerticesByThatMuch) {
         naive_tracks.resize(tracked.size());
       }
       for (std::size_t t = 0; t < tracked.size(); ++t) {
-        const auto truth = views::pixel(camera, places[t] - camera.position);
-        const auto naive = views::pixel(camera, dvec3(glm::vec3(places[t]) - glm::vec3(camera.position)));
+        const auto truth = app::accuracy::pixel(camera, places[t] - camera.position);
+        const auto naive =
+            app::accuracy::pixel(camera, dvec3(glm::vec3(places[t]) - glm::vec3(camera.position)));
         if (!truth || !naive) continue;  // it left the view
         const auto follow = [&](Track& track, const glm::dvec2& seen, double& deviation, double& bend) {
           track.off = {track.off[1], track.off[2], seen - *truth};
           deviation = std::max(deviation, glm::length(track.off[2]));
           if (n >= 2) bend = std::max(bend, track.second_difference());
         };
-        follow(tracks[t], views::pixel_of_clip(clip[tracked[t]].seen), worst, worst_bend);
+        follow(tracks[t], app::accuracy::pixel_of_clip(clip[tracked[t]].seen), worst, worst_bend);
         follow(naive_tracks[t], *naive, worst_naive, worst_naive_bend);
       }
     }

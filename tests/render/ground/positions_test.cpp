@@ -2,15 +2,17 @@
 
 #include <array>
 
+#include "app/accuracy/position_error.h"
 #include "tests/hard/table.h"
-#include "tests/render/ground/position_error.h"
+#include "tests/render/ground/tour.h"
+#include "tests/render/ground/views.h"
 
 namespace {
 
+using app::accuracy::MeshProbe;
+using app::accuracy::Sighting;
 using globe::clipmap::Positions;
 using globe::clipmap::Settings;
-using views::MeshProbe;
-using views::Sighting;
 using views::Surface;
 
 constexpr double kHighest = 9000.0;    ///< of the built-in planet, metres
@@ -81,14 +83,6 @@ struct Band {
 const std::array<Band, 3> kBands{
     {{"below 100 m", 100.0}, {"100 m to 100 km", 1e5}, {"100 km to 100,000 km", 1e9}}};
 
-/// Whether the planet's body hides a place, whatever the ground.
-bool is_hidden(const Surface& surface, const views::Camera& camera, const views::dvec3& place) {
-  const double distance = glm::length(place);
-  const double body =
-      globe::geo::ray_ellipsoid(surface.ellipsoid(), -1000.0, camera.position, place / distance);
-  return body >= 0.0 && body < distance;
-}
-
 std::array<Errors, 3> errors_of(const Settings& settings) {
   const auto surface = views::builtin_planet();
   MeshProbe probe(surface, settings);
@@ -98,8 +92,8 @@ std::array<Errors, 3> errors_of(const Settings& settings) {
   for (std::size_t k = 0; k < cameras; ++k) {
     const auto [camera, above] = views::tour_stop(*surface, k, cameras, random);
     const std::size_t band = above < kBands[0].below_m ? 0 : above < kBands[1].below_m ? 1 : 2;
-    views::see_vertices(*surface, probe, camera, above, 2000, [&](const Sighting& s) {
-      if (is_hidden(*surface, camera, s.truth)) return;
+    app::accuracy::see_vertices(*surface, probe, camera, above, 2000, [&](const Sighting& s) {
+      if (app::accuracy::is_hidden(*surface, camera, s.truth)) return;
       errors[band].add(s, bound(settings, *surface, s));
     });
   }

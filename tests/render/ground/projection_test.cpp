@@ -5,21 +5,22 @@
 #include <GeographicLib/LocalCartesian.hpp>
 #include <random>
 
+#include "app/accuracy/mesh_probe.h"
 #include "globe/clipmap/morph.h"
 #include "tests/hard/table.h"
-#include "tests/render/ground/mesh_probe.h"
+#include "tests/render/ground/views.h"
 
 namespace {
 
+using app::accuracy::MeshProbe;
+using app::accuracy::ProbeVertex;
 using GeographicLib::Geocentric;
 using GeographicLib::LocalCartesian;
 using globe::geo::Ellipsoid;
 using globe::geo::Geodetic;
 using views::Camera;
 using views::dvec3;
-using views::MeshProbe;
 using views::Place;
-using views::ProbeVertex;
 
 constexpr int kWidth = 1280;
 constexpr int kHeight = 720;

@@ -13,6 +13,7 @@
 
 namespace {
 
+using app::accuracy::MeshProbe;
 using globe::clipmap::ClipmapState;
 using globe::clipmap::Settings;
 using globe::clipmap::Stride;
@@ -23,7 +24,6 @@ using globe::render::FrameStats;
 using views::Camera;
 using views::dvec3;
 using views::GlobeRenderer;
-using views::MeshProbe;
 using views::Place;
 using views::RenderSettings;
 

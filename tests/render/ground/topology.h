@@ -7,7 +7,8 @@
 #include <map>
 #include <vector>
 
-#include "tests/render/ground/mesh_probe.h"
+#include "app/accuracy/mesh_probe.h"
+#include "tests/render/ground/views.h"
 
 namespace views {
 
@@ -30,11 +31,11 @@ struct Topology {
   long euler = 0;  ///< V - E + F
 };
 
-inline Topology topology(const std::vector<ProbeVertex>& triangles) {
+inline Topology topology(const std::vector<app::accuracy::ProbeVertex>& triangles) {
   std::map<Bits, std::uint32_t> number;
   std::vector<std::uint32_t> corner;
   corner.reserve(triangles.size());
-  for (const ProbeVertex& v : triangles) {
+  for (const app::accuracy::ProbeVertex& v : triangles) {
     corner.push_back(
         number.try_emplace(bits(v.seen), static_cast<std::uint32_t>(number.size())).first->second);
   }

@@ -1,10 +1,14 @@
-#include "tests/render/ground/mesh_probe.h"
+#include "app/accuracy/mesh_probe.h"
+
+#include <epoxy/gl.h>
 
 #include <map>
+#include <string>
+#include <utility>
 
 #include "globe/clipmap/morph.h"
 
-namespace views {
+namespace app::accuracy {
 namespace {
 
 using globe::gl::Buffer;
@@ -53,7 +57,7 @@ MeshProbe::MeshProbe(std::shared_ptr<const Surface> surface, const globe::clipma
                 probe_program(Kind::kRim, textures_, reader)} {}
 
 void MeshProbe::load(const dvec3& position, int finest, const globe::clipmap::Lighting& lighting) {
-  const Geodetic place = globe::geo::geodetic_from_ecef(surface_->ellipsoid(), position);
+  const globe::geo::Geodetic place = globe::geo::geodetic_from_ecef(surface_->ellipsoid(), position);
   const globe::clipmap::Target target{globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg), finest,
                                       lighting};
   auto update =
@@ -139,4 +143,4 @@ std::vector<ProbeVertex> MeshProbe::triangles(const globe::clipmap::ClipmapState
   return result;
 }
 
-}  // namespace views
+}  // namespace app::accuracy

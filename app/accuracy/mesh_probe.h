@@ -2,18 +2,25 @@
 
 #include <array>
 #include <glm/glm.hpp>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "globe/clipmap/patch.h"
+#include "globe/clipmap/stream.h"
 #include "globe/gl/buffer.h"
 #include "globe/gl/framebuffer.h"
 #include "globe/gl/program.h"
 #include "globe/gl/vertex_array.h"
+#include "globe/planet/surface.h"
+#include "globe/render/camera.h"
+#include "globe/render/clipmap_textures.h"
 #include "globe/render/draw_list.h"
-#include "tests/render/ground/views.h"
 
-namespace views {
+namespace app::accuracy {
+
+using glm::dvec3;
+using globe::planet::Surface;
+using globe::render::Camera;
 
 /// A corner of a drawn triangle: what the vertex shader made of it, and which node it stands on.
 struct ProbeVertex {
@@ -63,4 +70,4 @@ class MeshProbe {
   std::shared_ptr<const globe::clipmap::ClipmapState> state_;
 };
 
-}  // namespace views
+}  // namespace app::accuracy

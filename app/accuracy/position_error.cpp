@@ -1,9 +1,8 @@
-#include "tests/render/ground/position_error.h"
+#include "app/accuracy/position_error.h"
 
 #include "globe/clipmap/morph.h"
-#include "tests/hard/directions.h"
 
-namespace views {
+namespace app::accuracy {
 namespace {
 
 using globe::planet::Node;
@@ -14,7 +13,7 @@ constexpr double kHalfHeight = 360.0;
 /// Where a node's ground is drawn, ECEF metres in double.
 dvec3 drawn_node(const Surface& surface, const Node& node) {
   return globe::geo::ecef_from_normal(surface.ellipsoid(), globe::planet::node_direction(node),
-                                      std::max(surface.height(node), 0.0));
+                                      surface.drawn_height(surface.height(node)));
 }
 
 }  // namespace
@@ -49,10 +48,18 @@ dvec3 exact_place(const Surface& surface, const MeshProbe& probe, const ProbeVer
   return own + (coarse - own) * alpha;
 }
 
+/// Whether the planet's body hides a place, whatever the ground.
+bool is_hidden(const Surface& surface, const Camera& camera, const dvec3& place) {
+  const double distance = glm::length(place);
+  const double body =
+      globe::geo::ray_ellipsoid(surface.ellipsoid(), -1000.0, camera.position, place / distance);
+  return body >= 0.0 && body < distance;
+}
+
 Camera camera_over(const Surface& surface, const dvec3& u, double above_m, double heading_deg,
                    double pitch_deg) {
   globe::geo::Geodetic place = globe::geo::degrees_from_normal(u);
-  place.h_m = std::max(surface.height(u, 20), 0.0) + above_m;
+  place.h_m = surface.drawn_height(surface.height(u, 20)) + above_m;
   return globe::render::make_camera(surface.ellipsoid(), place, heading_deg, pitch_deg, 60.0, 16.0 / 9.0);
 }
 
@@ -84,15 +91,4 @@ void see_vertices(const Surface& surface, MeshProbe& probe, const Camera& camera
   }
 }
 
-TourStop tour_stop(const Surface& surface, std::size_t k, std::size_t count, std::mt19937_64& random) {
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  const auto& place = hard_places()[k / 2 % hard_places().size()];
-  const dvec3 u = k % 2 == 0 ? hard::random_direction(random)
-                             : globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg);
-  const double above =
-      0.1 * std::pow(1e9, (static_cast<double>(k) + unit(random)) / static_cast<double>(count));
-  const double pitch = above > 1e5 ? -90.0 + 40.0 * unit(random) : -5.0 - 80.0 * unit(random);
-  return {camera_over(surface, u, above, 360.0 * unit(random), pitch), above};
-}
-
-}  // namespace views
+}  // namespace app::accuracy

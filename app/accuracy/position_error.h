@@ -3,11 +3,10 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
-#include <random>
 
-#include "tests/render/ground/mesh_probe.h"
+#include "app/accuracy/mesh_probe.h"
 
-namespace views {
+namespace app::accuracy {
 
 /// Pixel of a camera-relative point from the middle of a 1280x720 view; nothing outside it.
 std::optional<glm::dvec2> pixel(const Camera& camera, const dvec3& relative);
@@ -16,6 +15,9 @@ glm::dvec2 pixel_of_clip(const glm::vec4& clip);
 
 /// The place of a drawn vertex in double, ECEF metres, its morph included.
 dvec3 exact_place(const Surface& surface, const MeshProbe& probe, const ProbeVertex& vertex);
+
+/// Whether the planet's body hides a place (metres from the camera), whatever the ground.
+bool is_hidden(const Surface& surface, const Camera& camera, const dvec3& place);
 
 /// A camera above a place, low over the ground drawn there, or as high as asked.
 Camera camera_over(const Surface& surface, const dvec3& u, double above_m, double heading_deg,
@@ -37,12 +39,4 @@ struct Sighting {
 void see_vertices(const Surface& surface, MeshProbe& probe, const Camera& camera, double above_m,
                   std::size_t wanted, const std::function<void(const Sighting&)>& see);
 
-/// The k-th of `count` cameras of a tour, random places and hard ones in turn, from 0.1 m to 1e8 m above the
-/// ground.
-struct TourStop {
-  Camera camera;
-  double above_m = 0;
-};
-TourStop tour_stop(const Surface& surface, std::size_t k, std::size_t count, std::mt19937_64& random);
-
-}  // namespace views
+}  // namespace app::accuracy
