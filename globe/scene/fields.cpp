@@ -244,7 +244,7 @@ std::vector<Fields> Fields::tables(const std::string& key) {
 
 std::vector<std::string> Fields::keys() const {
   std::vector<std::string> names;
-  for (const auto& entry : table_->entries) names.push_back(entry.first);
+  for (const Entry& entry : table_->entries) names.push_back(entry.key);
   return names;
 }
 
