@@ -144,7 +144,7 @@ std::optional<std::string> Fields::text(const std::string& key) {
 }
 
 std::optional<std::string> Fields::choice(const std::string& key, const std::vector<std::string>& words) {
-  const std::optional<std::string> word = text(key);
+  std::optional<std::string> word = text(key);
   if (!word || std::find(words.begin(), words.end(), *word) != words.end()) return word;
   const auto nearest = nearest_word(*word, words);
   refuse(key, '"' + *word + "\" is not " + listed(words, "or"),
