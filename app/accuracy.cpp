@@ -1,8 +1,12 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "app/accuracy/report.h"
 #include "app/commands.h"
@@ -37,8 +41,21 @@ void show_hard_cases() {
     throw globe::Error(table.string(), "the hard cases have not been run here", "run ./dev test");
   std::printf("case | quantity | threshold | seen\n");
   constexpr std::string_view kMark = "HARD | ";
-  for (std::string line; std::getline(rows, line);)
-    std::printf("%s\n", line.substr(line.starts_with(kMark) ? kMark.size() : 0).c_str());
+  std::vector<std::string> seen;  // a case that ran twice, in two kinds of test, is shown once
+  for (std::string line; std::getline(rows, line);) {
+    line.erase(0, line.starts_with(kMark) ? kMark.size() : 0);
+    if (std::find(seen.begin(), seen.end(), line) != seen.end()) continue;
+    std::printf("%s\n", line.c_str());
+    seen.push_back(line);
+  }
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw globe::Error(folder.string(), "cannot be made: " + error.message(),
+                       "choose a folder that may be written");
 }
 
 void write(const std::filesystem::path& path, const std::string& text, bool overwrite) {
@@ -63,7 +80,7 @@ void run(const AccuracyOptions& options) {
   const std::filesystem::path page = folder / "accuracy.html", rows = folder / "accuracy.csv",
                               json = folder / "accuracy.json";
   for (const auto& path : {page, rows, json}) globe::refuse_existing(path, options.overwrite);
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   Progress progress(progress_style(options.quiet, false));
   const accuracy::Scope scope{options.suite == "full"};
   std::vector<accuracy::MeasuredStudy> measured;

@@ -1,4 +1,3 @@
-#include <unistd.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include "app/bench.h"
 #include "converters/job.h"
 #include "converters/sampler.h"
+#include "globe/base/temporary_folder.h"
 #include "globe/planet/tiff_level.h"
 
 // What a conversion does at a node, by filter, and what it takes to pack a node: with the speed of reading,
@@ -81,10 +81,10 @@ Benchmark packing_benchmark() {
   sampling->run();
   const int tile = converters::kTileSize;
   globe::planet::TiffLevel level{sampling->rect.ni, Sampling::kRows, 1, "float32", tile};
+  const auto folder = std::make_shared<const globe::TemporaryFolder>("globe-bench");
   return {
-      "convert.pack", double(level.tiles_across()) * tile * tile, [sampling, level] {
-        const std::filesystem::path path =
-            std::filesystem::temp_directory_path() / ("globe-bench-" + std::to_string(::getpid()) + ".tif");
+      "convert.pack", double(level.tiles_across()) * tile * tile, [sampling, level, folder] {
+        const std::filesystem::path path = *folder / "level.tif";
         globe::planet::TiffWriter file(path, true);
         file.begin_level(level);
         std::vector<std::byte> samples;

@@ -1,5 +1,4 @@
 #include <OpenImageIO/imageio.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -7,6 +6,7 @@
 
 #include "app/bench.h"
 #include "converters/convert.h"
+#include "globe/base/temporary_folder.h"
 #include "globe/clipmap/level_data.h"
 #include "globe/clipmap/shading_nodes.h"
 #include "globe/geo/ellipsoid.h"
@@ -176,10 +176,7 @@ Benchmark ground_tile(int level) {
 Benchmark convert_bilinear() {
   constexpr int kWidth = 2160;
   constexpr int kHeight = 1080;
-  const auto folder = std::make_shared<std::filesystem::path>(std::filesystem::temp_directory_path() /
-                                                              ("globe-bench-" + std::to_string(getpid())));
-  std::filesystem::create_directories(*folder);
-  const std::shared_ptr<void> remover(nullptr, [folder](void*) { std::filesystem::remove_all(*folder); });
+  const auto folder = std::make_shared<const globe::TemporaryFolder>("globe-bench");
   std::vector<float> heights(static_cast<std::size_t>(kWidth) * kHeight);
   for (std::size_t k = 0; k < heights.size(); ++k)
     heights[k] = static_cast<float>(std::sin(static_cast<double>(k) * 1e-3) * 3000.0);
@@ -197,7 +194,7 @@ Benchmark convert_bilinear() {
   const converters::ConvertListener quiet{[](const std::string&) {}, [](const std::string&) {},
                                           [](const std::string&, double) {}};
   return {"convert.bilinear", double(kWidth) * kHeight, [=] {
-            static_cast<void>(remover);
+            static_cast<void>(folder);
             converters::convert(options, quiet);
           }};
 }

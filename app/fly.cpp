@@ -18,6 +18,7 @@
 #include "app/frame_budget.h"
 #include "app/frame_clock.h"
 #include "app/frame_sink.h"
+#include "app/parse_options.h"
 #include "app/point.h"
 #include "app/progress.h"
 #include "app/records.h"
@@ -224,7 +225,7 @@ void add_fly(CLI::App& program) {
                       "number of frames (default: 300; along a scene's path as many as its time takes)");
   command->add_option("--fps", options->fps, "frames a second of the film")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 1000.0));
+      ->check(in_range(0.1, 1000.0));
   command->add_option("--stats", options->stats, "JSON file for the figures of every frame");
   command->add_option("--contact-sheet", options->contact_sheet, "PNG file for twelve frames at a glance");
   command->add_flag(
@@ -235,7 +236,7 @@ void add_fly(CLI::App& program) {
                    "milliseconds for a frame: uploads take what drawing leaves of them, and at least a "
                    "little (default: a "
                    "third more than drawing takes)")
-      ->check(CLI::Range(0.0, 10000.0));
+      ->check(in_range(0.0, 10000.0));
   command->callback([options, command] { run(*options, *command); });
 }
 

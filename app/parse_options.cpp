@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include "globe/base/error.h"
 
@@ -48,6 +49,19 @@ std::vector<double> parse_numbers(const std::string& text, char separator) {
     numbers.push_back(*value);
   }
   return numbers;
+}
+
+CLI::Validator in_range(double low, double high) {
+  const auto check = [low, high](const std::string& text) {
+    const std::optional<double> value = parse_number(text);
+    if (value && *value >= low && *value <= high) return std::string();
+    char reason[160];
+    std::snprintf(reason, sizeof reason, "'%.60s' is not a number from %g to %g", text.c_str(), low, high);
+    return std::string(reason);
+  };
+  char range[64];
+  std::snprintf(range, sizeof range, "[%g - %g]", low, high);
+  return CLI::Validator(check, range);
 }
 
 globe::geo::Ellipsoid parse_ellipsoid(const std::string& text) {

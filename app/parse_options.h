@@ -1,5 +1,6 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@ std::optional<double> parse_number(const std::string& text);
 
 /// Finite numbers with a separator between them; empty when any word is none.
 std::vector<double> parse_numbers(const std::string& text, char separator);
+
+/// Takes finite numbers from `low` to `high`, both included. CLI::Range lets "nan" pass.
+CLI::Validator in_range(double low, double high);
 
 /// "wgs84", "moon", "mars" or "A,F" (F also as 1/298.257). Throws globe::UsageError.
 globe::geo::Ellipsoid parse_ellipsoid(const std::string& text);

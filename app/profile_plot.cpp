@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <string_view>
 
-#include "app/piped_program.h"
+#include "app/gnuplot.h"
 #include "app/records.h"
 #include "globe/base/error.h"
 #include "globe/base/pending_file.h"
@@ -19,16 +18,6 @@ using Samples = std::span<const ProfileSample>;
 
 /// Edges of the axes, shares of the picture.
 constexpr double kLeft = 0.085, kRight = 0.97, kBottom = 0.12, kTop = 0.84;
-
-/// A text as gnuplot takes it: nothing in it is special but the quote, which is doubled.
-std::string literal(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < ' ') continue;
-    result += c == '\'' ? std::string("''") : std::string(1, c);
-  }
-  return result + "'";
-}
 
 struct Range {
   double low, high;
@@ -65,7 +54,7 @@ std::string mark(const ProfileSample& sample, std::string_view name, double leng
   const bool below = sample.height_m < 0.0 && metres != "0";
   const std::string text = std::string(name) + (below ? " −" : " ") + metres + " m";
   return "set label at " + km + number_text(sample.height_m, 3) +
-         " front point pt 7 ps dot lc rgb '#7a1f1f'\nset label " + literal(text) + " at " + km +
+         " front point pt 7 ps dot lc rgb '#7a1f1f'\nset label " + gnuplot_literal(text) + " at " + km +
          number_text(text_m, 3) + " " + side + " offset 0," + (above ? "0.9" : "-0.9") +
          " front font ',13' tc rgb '#7a1f1f'\n";
 }
@@ -88,14 +77,15 @@ std::string script(Samples samples, const ProfilePlot& plot, const std::filesyst
   }
   line(svg ? "dot = 0.5" : "dot = 0.9");
   line("set encoding utf8; set minussign");
-  line("set output " + literal(output.string()));
+  line("set output " + gnuplot_literal(output.string()));
   line("set lmargin at screen " + number_text(kLeft, 3) + "; set rmargin at screen " +
        number_text(kRight, 3));
   line("set bmargin at screen " + number_text(kBottom, 3) + "; set tmargin at screen " +
        number_text(kTop, 3));
-  line("set label " + literal(plot.title) + " at screen " + number_text(kLeft, 3) +
+  line("set label " + gnuplot_literal(plot.title) + " at screen " + number_text(kLeft, 3) +
        ",0.94 left font 'DejaVu Sans Bold,21'");
-  line("set label " + literal(plot.subtitle + " · " + exaggeration_text(exaggeration(length_m, axis))) +
+  line("set label " +
+       gnuplot_literal(plot.subtitle + " · " + exaggeration_text(exaggeration(length_m, axis))) +
        " at screen " + number_text(kLeft, 3) + ",0.885 left font ',13' tc rgb '#555555'");
   line("set xrange [0:" + number_text(length_m / 1000.0, 6) + "]");
   line("set yrange [" + number_text(axis.low, 3) + ":" + number_text(axis.high, 3) + "]");
@@ -111,7 +101,7 @@ std::string script(Samples samples, const ProfilePlot& plot, const std::filesyst
   const bool near_zero = lowest->height_m > 0.0 && lowest->height_m < 0.1 * axis.span();
   if (lowest->height_m < highest->height_m)
     text += mark(*lowest, "lowest", length_m, false, near_zero ? 0.0 : lowest->height_m);
-  line("set label " + literal(plot.sea ? "sea level" : "height 0") +
+  line("set label " + gnuplot_literal(plot.sea ? "sea level" : "height 0") +
        " at graph 1,first 0 right offset -0.5,0.55 front font ',11' tc rgb '#2b6ca3'");
   line("plot $ground using 1:2 with filledcurves y1=" + number_text(axis.low, 3) + " fc rgb '#d9c7a3', \\");
   if (plot.sea) line("  $ground using 1:($2 < 0 ? $2 : 0) with filledcurves y1=0 fc rgb '#b9d7ee', \\");
@@ -134,11 +124,9 @@ void require_plot_name(const std::filesystem::path& path) {
 void draw_profile(const std::filesystem::path& path, Samples samples, const ProfilePlot& plot,
                   bool overwrite) {
   globe::PendingFile file(path, overwrite);
-  PipedProgram gnuplot({"gnuplot", "-d", "-"}, "install gnuplot-nox, or leave out -o and take the samples");
   // An absolute path: gnuplot would take | and ~ at the beginning of another for something else.
-  const std::string commands = script(samples, plot, std::filesystem::absolute(file.temporary()));
-  gnuplot.write({reinterpret_cast<const std::uint8_t*>(commands.data()), commands.size()});
-  gnuplot.finish();
+  run_gnuplot(script(samples, plot, std::filesystem::absolute(file.temporary())),
+              "install gnuplot-nox, or leave out -o and take the samples");
   file.publish();
 }
 

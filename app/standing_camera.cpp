@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/parse_options.h"
 #include "globe/base/error.h"
 
 namespace app {
@@ -30,7 +31,7 @@ void add_stand_options(CLI::App& command, StandOptions& options) {
   command.add_option("--at", options.at, "where the camera stands: LAT,LON[,ALT]; not needed with a scene");
   command.add_option("--moment", options.moment_s, "seconds from the beginning of a scene's path")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(in_range(0.0, 1e9));
 }
 
 globe::geo::Geodetic target_of(const StandOptions& options, const std::optional<globe::scene::Scene>& scene) {

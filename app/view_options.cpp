@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "app/parse_options.h"
 #include "app/planet_argument.h"
 #include "globe/base/error.h"
 #include "globe/geo/sun.h"
@@ -60,7 +61,7 @@ void add_camera_options(CLI::App& command, CameraOptions& options) {
       ->check(CLI::IsMember({"on", "off"}));
   command.add_option("--exaggeration", options.exaggeration, "draw heights so many times as high")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(in_range(0.0, 100.0));
 }
 
 globe::clipmap::Settings clipmap_settings(const CameraOptions& options) {

@@ -15,6 +15,7 @@
 #include "converters/srgb.h"
 #include "globe/planet/layer_file.h"
 #include "globe/planet/mean_height.h"
+#include "globe/planet/planet_file.h"
 
 namespace converters {
 namespace {
@@ -304,10 +305,11 @@ class VoidParts {
 };
 
 template <typename Parts>
-Range run(const Job& job, const NodeSource& nodes, int channels, const char* storage,
-          const std::filesystem::path& path, Parts parts, const std::function<void(double)>& progress) {
+Range run(const Job& job, const NodeSource& nodes, int channels, const char* storage, const PartFiles& files,
+          Parts parts, const std::function<void(double)>& progress) {
   const NodeRect row = nodes_of(job);
   const int n = nodes_per_side(job.level);
+  const std::filesystem::path path = files.tiles(job);
   const std::filesystem::path temporary = path.string() + ".partial";
   TileWriter tiles(temporary, row, globe::planet::layer_level(job.level, channels, storage, kTileSize));
   for (int i = 0; i < n; i += kColumns) {
@@ -316,7 +318,10 @@ Range run(const Job& job, const NodeSource& nodes, int channels, const char* sto
     progress(double(std::min(i + kColumns, n)) / n);
   }
   tiles.finish();
-  parts.sync();
+  if (files.outlast_power) {
+    globe::planet::sync_to_disk(temporary);
+    parts.sync();
+  }
   std::filesystem::rename(temporary, path);
   return parts.range();
 }
@@ -334,10 +339,10 @@ std::filesystem::path PartFiles::level(const std::string& layer) const { return 
 Range run_job(const Job& job, const NodeSource& nodes, const globe::geo::Ellipsoid& ellipsoid,
               const PartFiles& files, const std::function<void(double)>& progress) {
   if (job.layer == JobLayer::kHeight)
-    return run(job, nodes, 1, "float32", files.tiles(job), HeightParts(job, ellipsoid, files), progress);
+    return run(job, nodes, 1, "float32", files, HeightParts(job, ellipsoid, files), progress);
   if (job.layer == JobLayer::kVoid)
-    return run(job, nodes, 1, "uint8", files.tiles(job), VoidParts(job, files), progress);
-  return run(job, nodes, 3, "uint8", files.tiles(job), ColorParts(job, files), progress);
+    return run(job, nodes, 1, "uint8", files, VoidParts(job, files), progress);
+  return run(job, nodes, 3, "uint8", files, ColorParts(job, files), progress);
 }
 
 }  // namespace converters

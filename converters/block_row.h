@@ -13,6 +13,7 @@ namespace converters {
 /// Where the jobs of a conversion leave what they made.
 struct PartFiles {
   std::filesystem::path folder;
+  bool outlast_power = false;  ///< a job is done when what it made is on the disk
 
   /// The tiles of a job, a TIFF as planet/tiff_level.h writes it.
   std::filesystem::path tiles(const Job& job) const;

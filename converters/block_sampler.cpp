@@ -113,8 +113,8 @@ void BlockSampler::find_centres() {
     for (int i = cells_.i0; i < cells_.i0 + cells_.ni; ++i) {
       const dvec3& a = directions[corners.index(i + 1, j)];
       const dvec3& b = directions[corners.index(i, j + 1)];
-      centres.push_back(trixel_centre(directions[corners.index(i, j)], a, b));
-      centres.push_back(trixel_centre(directions[corners.index(i + 1, j + 1)], b, a));
+      centres.push_back(trixel_centre(geometry_, directions[corners.index(i, j)], a, b));
+      centres.push_back(trixel_centre(geometry_, directions[corners.index(i + 1, j + 1)], b, a));
     }
   }
   centres_.resize(centres.size());

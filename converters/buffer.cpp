@@ -48,6 +48,7 @@ Buffer::Buffer(std::size_t bytes, MemoryBudget& budget) : bytes_(bytes) {
   if (bytes <= budget.bytes_left) {
     void* data = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (data != MAP_FAILED) {
+      ::madvise(data, bytes, MADV_HUGEPAGE);  // a fault for each 4 KiB would cost more than filling them
       data_ = static_cast<std::byte*>(data);
       budget_ = &budget;
       budget.bytes_left -= bytes;

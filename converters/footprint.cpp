@@ -55,28 +55,27 @@ double turn_of(const MapGeometry& geometry) {
   return geometry.period > 0 ? 0.0 : 360.0 / geometry.step_deg;
 }
 
+double lowest(const Footprint& footprint, double Footprint::Corner::*of) {
+  double value = footprint.corner[0].*of;
+  for (std::size_t k = 1; k < static_cast<std::size_t>(footprint.count); ++k)
+    value = std::min(value, footprint.corner[k].*of);
+  return value;
+}
+double highest(const Footprint& footprint, double Footprint::Corner::*of) {
+  double value = footprint.corner[0].*of;
+  for (std::size_t k = 1; k < static_cast<std::size_t>(footprint.count); ++k)
+    value = std::max(value, footprint.corner[k].*of);
+  return value;
+}
+
 }  // namespace
 
-double Footprint::min_x() const {
-  return std::min_element(corner.begin(), corner.begin() + count, [](auto& a, auto& b) { return a.x < b.x; })
-      ->x;
-}
-double Footprint::max_x() const {
-  return std::max_element(corner.begin(), corner.begin() + count, [](auto& a, auto& b) { return a.x < b.x; })
-      ->x;
-}
-double Footprint::min_y() const {
-  return std::min_element(corner.begin(), corner.begin() + count, [](auto& a, auto& b) { return a.y < b.y; })
-      ->y;
-}
-double Footprint::max_y() const {
-  return std::max_element(corner.begin(), corner.begin() + count, [](auto& a, auto& b) { return a.y < b.y; })
-      ->y;
-}
+double Footprint::min_x() const { return lowest(*this, &Corner::x); }
+double Footprint::max_x() const { return highest(*this, &Corner::x); }
+double Footprint::min_y() const { return lowest(*this, &Corner::y); }
+double Footprint::max_y() const { return highest(*this, &Corner::y); }
 
 double footprint_reach(int level) { return std::numbers::pi / globe::planet::nodes_per_side(level); }
-
-dvec3 trixel_centre(const dvec3& a, const dvec3& b, const dvec3& c) { return glm::normalize(a + b + c); }
 
 Footprint make_footprint(const MapGeometry& geometry, const SamplePlace& node,
                          const std::array<SamplePlace, 6>& centres, int count) {
@@ -115,7 +114,8 @@ Footprint footprint_of(const MapGeometry& geometry, const Node& node) {
   std::array<dvec3, 7> directions{};
   for (int k = 0; k < count; ++k) {
     const dvec3& next = ring[static_cast<std::size_t>((k + 1) % count)];
-    directions[static_cast<std::size_t>(k)] = trixel_centre(u, ring[static_cast<std::size_t>(k)], next);
+    directions[static_cast<std::size_t>(k)] =
+        trixel_centre(geometry, u, ring[static_cast<std::size_t>(k)], next);
   }
   directions[6] = u;
   std::array<SamplePlace, 7> places{};
@@ -129,7 +129,7 @@ double cap_rim(const MapGeometry& geometry, int level, bool north) {
   const int n = globe::planet::nodes_per_side(level);
   const int pole = north ? 0 : n;
   const int step = north ? 1 : -1;
-  const SamplePlace rim = place_of(geometry, trixel_centre(node_direction({0, level, pole, pole}),
+  const SamplePlace rim = place_of(geometry, trixel_centre(geometry, node_direction({0, level, pole, pole}),
                                                            node_direction({0, level, pole + step, pole}),
                                                            node_direction({0, level, pole, pole + step})));
   return rim.y.whole + rim.y.fraction;

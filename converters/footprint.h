@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "converters/map_geometry.h"
@@ -41,9 +42,12 @@ Footprint footprint_of(const MapGeometry& geometry, const globe::planet::Node& n
 Footprint make_footprint(const MapGeometry& geometry, const SamplePlace& node,
                          const std::array<SamplePlace, 6>& centres, int count);
 
-/// Direction of the middle of a trixel.
-globe::planet::dvec3 trixel_centre(const globe::planet::dvec3& a, const globe::planet::dvec3& b,
-                                   const globe::planet::dvec3& c);
+/// Direction of the middle of a trixel, of unit length where the map needs that.
+inline globe::planet::dvec3 trixel_centre(const MapGeometry& geometry, const globe::planet::dvec3& a,
+                                          const globe::planet::dvec3& b, const globe::planet::dvec3& c) {
+  const globe::planet::dvec3 sum = a + b + c;
+  return geometry.takes_any_length() ? sum : glm::normalize(sum);
+}
 
 /// The row coordinate where the cap of a pole's node ends.
 double cap_rim(const MapGeometry& geometry, int level, bool north);

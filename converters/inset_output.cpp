@@ -113,7 +113,10 @@ class BlockFile {
     writer_.end_level();
   }
 
-  void finish() { writer_.finish(); }
+  void finish() {
+    writer_.finish();
+    globe::planet::sync_to_disk(path_);
+  }
 
  private:
   fs::path path_;

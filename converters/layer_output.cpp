@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <future>
 #include <string>
 
 #include "converters/pyramid.h"
@@ -133,6 +134,8 @@ std::vector<globe::planet::StoredLayer> write_layers(const std::vector<LayerOutp
     all_samples += samples_of(layer.stored);
   }
   std::atomic<double> done = 0;
+  // While files go to the disk, the next ones are written.
+  std::vector<std::future<void>> published(stored.size() * kDiamonds);
   tbb::parallel_for(0, static_cast<int>(layers.size()) * kDiamonds, 1, [&](int task) {
     const auto index = static_cast<std::size_t>(task / kDiamonds);
     const auto d = static_cast<std::size_t>(task % kDiamonds);
@@ -147,10 +150,18 @@ std::vector<globe::planet::StoredLayer> write_layers(const std::vector<LayerOutp
         done = done + row * rows;
         progress(std::min(1.0, done / all_samples));
       });
-      std::filesystem::rename(temporary, path);
+      stored[index].files[d] = globe::planet::describe_file(temporary);
+      stored[index].files[d].name = path.filename().string();
+      published[static_cast<std::size_t>(task)] = std::async(std::launch::async, [temporary, path] {
+        globe::planet::sync_to_disk(temporary);
+        std::filesystem::rename(temporary, path);
+      });
+    } else {
+      stored[index].files[d] = globe::planet::describe_file(path);
     }
-    stored[index].files[d] = globe::planet::describe_file(path);
   });
+  for (std::future<void>& one : published)
+    if (one.valid()) one.get();
   return stored;
 }
 

@@ -40,6 +40,8 @@ struct MapGeometry {
   bool as_thesis = false;  ///< directions are looked up where the thesis has them (thesis_mapping.h)
 
   bool is_whole_planet() const { return north_shift != kNoPole && south_shift != kNoPole; }
+  /// Whether find_places takes directions of any length.
+  bool takes_any_length() const { return !projection && !as_thesis; }
   int columns() const { return period > 0 ? period : width; }
 
   /// Samples in 90 degrees.
@@ -80,7 +82,8 @@ struct SamplePlace {
 };
 SamplePlace place_of(const MapGeometry& geometry, const globe::geo::dvec3& u);
 
-/// The same for many. Those that are off the map by more than `reach` radians need not be found.
+/// The same for many, of unit length unless the map takes any. Those that are off the map by more than
+/// `reach` radians need not be found.
 void find_places(const MapGeometry& geometry, const globe::geo::dvec3* directions, std::size_t count,
                  double reach, SamplePlace* out);
 

@@ -1,11 +1,17 @@
 #include "converters/output_folder.h"
 
 #include <fcntl.h>
+#include <linux/magic.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -46,7 +52,7 @@ std::optional<std::string> read_text(const fs::path& path) {
 }
 
 /// Under a temporary name first; the name is ours alone, for others may write the same file.
-void write_text(const fs::path& path, const std::string& text) {
+void write_text(const fs::path& path, const std::string& text, bool to_disk) {
   const fs::path temporary = path.string() + "." + std::to_string(::getpid()) + ".partial";
   {
     std::ofstream stream(temporary, std::ios::binary);
@@ -55,8 +61,26 @@ void write_text(const fs::path& path, const std::string& text) {
       throw globe::Error(path.string(), "cannot be written", "free some disk, then the same command goes on");
     }
   }
-  globe::planet::sync_to_disk(temporary);
+  if (to_disk) globe::planet::sync_to_disk(temporary);
   fs::rename(temporary, path);
+}
+
+/// What names the time since the machine was started; "" where the system does not tell.
+std::string this_boot() {
+  std::string name = read_text("/proc/sys/kernel/random/boot_id").value_or("");
+  name.erase(std::remove_if(name.begin(), name.end(), [](unsigned char c) { return std::isspace(c); }),
+             name.end());
+  return name;
+}
+
+/// Whether a folder lies on a disk of this machine, where what has been written can be read until the machine
+/// stops. Over a network a full disk may show only later.
+bool is_on_own_disk(const fs::path& folder) {
+  struct statfs status {};
+  if (::statfs(folder.c_str(), &status) != 0) return false;
+  constexpr std::array<std::uint32_t, 6> kOwn{EXT4_SUPER_MAGIC, XFS_SUPER_MAGIC, BTRFS_SUPER_MAGIC,
+                                              F2FS_SUPER_MAGIC, TMPFS_MAGIC,     OVERLAYFS_SUPER_MAGIC};
+  return std::find(kOwn.begin(), kOwn.end(), static_cast<std::uint32_t>(status.f_type)) != kOwn.end();
 }
 
 fs::path mark_path(const fs::path& work, const Job& job) {
@@ -85,6 +109,7 @@ OutputFolder::OutputFolder(const fs::path& planet, bool overwrite, const std::st
     throw globe::Error(partial_.string(), "another conversion is writing here",
                        "wait for it or choose another name");
   }
+  if (sharing == Sharing::kAlone && is_on_own_disk(work_)) boot_ = this_boot();
   try {
     set_up(recipe, overwrite);
   } catch (...) {
@@ -103,7 +128,7 @@ void OutputFolder::set_up(const std::string& recipe, bool overwrite) {
                        "repeat that command, remove the folder, or choose another name");
   }
   clear();
-  write_text(path, recipe);
+  write_text(path, recipe, true);
 }
 
 /// The recipe goes first: without it nothing that is left counts, whenever we are interrupted.
@@ -135,13 +160,15 @@ std::optional<Range> OutputFolder::done(const Job& job) const {
   std::istringstream stream(*text);
   stream.imbue(std::locale::classic());
   if (!(stream >> range.min >> range.max)) return std::nullopt;
+  std::string boot;
+  if (stream >> boot && boot != this_boot()) return std::nullopt;
   return range;
 }
 
 void OutputFolder::mark_done(const Job& job, const Range& range) const {
   char text[64];
-  std::snprintf(text, sizeof text, "%.17g %.17g\n", range.min, range.max);
-  write_text(mark_path(work_, job), text);
+  std::snprintf(text, sizeof text, "%.17g %.17g", range.min, range.max);
+  write_text(mark_path(work_, job), text + (boot_.empty() ? "" : " " + boot_) + "\n", boot_.empty());
 }
 
 bool OutputFolder::take_over() {

@@ -13,6 +13,10 @@ namespace converters {
 ///
 /// PLANET.partial/work holds the recipe (what is converted, and how), the parts that are done and a mark for
 /// each. An interrupted conversion leaves it, and the next one with the same recipe goes on from there.
+///
+/// To wait for the disk at every part would take as long as to make it. One process that works alone on a
+/// disk of its own machine therefore marks parts that the system has taken: they outlast the process, and
+/// count until the machine is started anew. Those of a team are on the disk.
 class OutputFolder {
  public:
   enum class Sharing {
@@ -32,7 +36,7 @@ class OutputFolder {
 
   /// Where the files of the planet go.
   const std::filesystem::path& path() const { return partial_; }
-  PartFiles parts() const { return {work_}; }
+  PartFiles parts() const { return {work_, boot_.empty()}; }
 
   /// Range of the values of a job that is done, else nothing.
   std::optional<Range> done(const Job& job) const;
@@ -56,6 +60,7 @@ class OutputFolder {
   std::filesystem::path partial_;
   std::filesystem::path work_;
   Sharing sharing_;
+  std::string boot_;  ///< of the marks that count until the next one; "": marks count for ever
   int lock_ = -1;
   bool finished_ = false;
 };

@@ -27,13 +27,17 @@ using globe::planet::Node;
 template <typename From, typename To, typename Body>
 void for_each_row(const NodeGrid<From>& from, const NodeGrid<To>& to, const Body& body) {
   constexpr int kRowsATask = 16;
-  constexpr int kTasksBetweenDrops = 2;
+  constexpr std::size_t kBytesBetweenDrops = std::size_t{8} << 20;
   const int side = to.side();
+  const std::size_t task_bytes = static_cast<std::size_t>(kRowsATask) * 2 *
+                                 static_cast<std::size_t>(from.side()) *
+                                 static_cast<std::size_t>(from.channels()) * sizeof(From);
+  const int between_drops = static_cast<int>(std::max<std::size_t>(1, kBytesBetweenDrops / task_bytes));
   std::atomic<int> tasks = 0;
   const tbb::blocked_range<int> all(0, kDiamonds * side, kRowsATask);
   const auto run = [&](const tbb::blocked_range<int>& rows) {
     for (int row = rows.begin(); row < rows.end(); ++row) body(row / side, row % side);
-    if (++tasks % kTasksBetweenDrops == 0) {
+    if (++tasks % between_drops == 0) {
       from.drop_pages();
       to.drop_pages();
     }

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -119,7 +120,18 @@ void compare(const HeightMap& map, const std::vector<float>& back, RoundTripLoss
       loss.rms_m > 0.0 ? 20.0 * std::log10(span / loss.rms_m) : std::numeric_limits<double>::infinity();
 }
 
+constexpr std::array<NamedRoundTrip, 6> kMethods{{
+    {"nearest", {Filter::kNearest, Sampling::kNearest, false}},
+    {"bilinear", {Filter::kBilinear, Sampling::kLinear, false}},
+    {"bicubic", {Filter::kBicubic, Sampling::kLinear, false}},
+    {"area", {Filter::kArea, Sampling::kLinear, false}},
+    {"bicubic, back cubic", {Filter::kBicubic, Sampling::kCubic, false}},
+    {"--as-thesis, bilinear", {Filter::kBilinear, Sampling::kLinear, true}},
+}};
+
 }  // namespace
+
+std::span<const NamedRoundTrip> round_trip_methods() { return kMethods; }
 
 HeightMap map_of(const Harmonics& harmonics, int width) {
   HeightMap map{width, -180.0, {}};

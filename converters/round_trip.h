@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "converters/harmonics.h"
@@ -28,6 +29,15 @@ struct RoundTripMethod {
   Sampling sampling = Sampling::kLinear;  ///< and back
   bool as_thesis = false;                 ///< nodes taken where the thesis has them, for comparison
 };
+
+/// A method, by the name that tables give it.
+struct NamedRoundTrip {
+  const char* name;
+  RoundTripMethod method;
+};
+
+/// The methods that tables and plots compare.
+std::span<const NamedRoundTrip> round_trip_methods();
 
 /// What a map loses on its way to the nodes of a level and back to a map.
 struct RoundTripLoss {

@@ -109,6 +109,8 @@ SourceMap::SourceMap(RasterSource& raster, const MapGeometry& geometry, const Va
   const std::size_t raw_row = static_cast<std::size_t>(info.width) * static_cast<std::size_t>(info.channels);
   const bool as_values = info.type == SampleType::kFloat || factor > 1;
   decode_ = decode_table(rule, info);
+  for (std::size_t code = 0; code < decode_.size(); ++code)
+    if (std::isnan(decode_[code])) void_codes_.push_back(static_cast<std::uint16_t>(code));
   std::vector<std::byte> raw(raw_row * size_of(info.type) * static_cast<std::size_t>(factor));
   std::vector<float> rows(as_values ? area(info.width, factor) * static_cast<std::size_t>(channels_) : 0);
   const double white = info.linear_light ? 0.0 : white_of(info);
@@ -154,6 +156,7 @@ SourceMap::SourceMap(RasterSource& raster, const MapGeometry& geometry, const Va
     }
   }
   samples_ = spooled ? Buffer::in_new_file(spool.temporary(), bytes) : Buffer(bytes, budget);
+  bool voids = false;
   for (int y = 0; y < geometry_.height; ++y) {
     std::byte* to = samples_.data() + static_cast<std::size_t>(y) * row_bytes;
     if (as_values) {
@@ -165,13 +168,14 @@ SourceMap::SourceMap(RasterSource& raster, const MapGeometry& geometry, const Va
     } else {
       raster.read_rows(1, to);
     }
+    voids = voids || may_hold_voids(to);
     if (y % 64 == 63) {
       samples_.drop_pages();
       progress(double(y) / geometry_.height);
     }
   }
   if (as_values) decode_.clear();
-  count_voids(budget);
+  if (voids) count_voids(budget);
   if (void_share_ >= 1.0) throw globe::Error(info.name, "holds no valid sample", "check --nodata");
   if (spooled) leave(spool);
 }
@@ -245,7 +249,8 @@ SourceMap::Run SourceMap::run_at(int x, int y, int most) const {
 void SourceMap::read(Window& window) const {
   const bool weighted = fill_ || ends_;
   window.stride = channels_ + (weighted ? 1 : 0);
-  window.values.resize(area(window.width, window.height) * static_cast<std::size_t>(window.stride));
+  window.values.resize((area(window.width, window.height) + Window::kPadding) *
+                       static_cast<std::size_t>(window.stride));
   std::vector<float> values;
   for (int y = window.y0; y < window.y0 + window.height; ++y) {
     for (int done = 0; done < window.width;) {
@@ -282,11 +287,25 @@ void SourceMap::let_go_of(const Window& window) const {
   samples_.drop_pages();
 }
 
+bool SourceMap::may_hold_voids(const std::byte* row) const {
+  constexpr std::size_t kMostCodes = 4;
+  if (masked_ || void_codes_.size() > kMostCodes) return true;
+  const std::size_t n = area(geometry_.width, stored_channels_);
+  const auto any = [n](const auto* first, const auto& is_void) {  // without a way out: vector code
+    bool found = false;
+    for (std::size_t k = 0; k < n; ++k) found |= is_void(first[k]);
+    return found;
+  };
+  if (stored_ == SampleType::kFloat)
+    return any(reinterpret_cast<const float*>(row), [](float v) { return v != v; });
+  return std::any_of(void_codes_.begin(), void_codes_.end(), [&](std::uint16_t code) {
+    if (stored_ == SampleType::kUint8)
+      return any(reinterpret_cast<const std::uint8_t*>(row), [code](std::uint8_t v) { return v == code; });
+    return any(reinterpret_cast<const std::uint16_t*>(row), [code](std::uint16_t v) { return v == code; });
+  });
+}
+
 void SourceMap::count_voids(MemoryBudget& budget) {
-  // Integers of a type whose every number is valid have no voids: nothing to look for.
-  if (stored_ != SampleType::kFloat && !masked_ &&
-      std::none_of(decode_.begin(), decode_.end(), [](float v) { return std::isnan(v); }))
-    return;
   VoidFill fill(geometry_, channels_);
   std::vector<float> row(static_cast<std::size_t>(geometry_.columns()) * static_cast<std::size_t>(channels_));
   double void_area = 0;

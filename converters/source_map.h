@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -31,6 +32,9 @@ struct Window {
   int x0 = 0, y0 = 0, width = 0, height = 0;
   int stride = 1;  ///< floats a sample
   std::vector<float> values;
+
+  /// Columns that may be read beyond the last one: of no meaning, but finite.
+  static constexpr std::size_t kPadding = 8;
 
   const float* at(int x, int y) const {
     const auto index =
@@ -76,6 +80,8 @@ class SourceMap {
   Run run_at(int x, int y, int most) const;
   void read_run(int x, int y, int count, float* out) const;
   void let_go_of(const Window& window) const;
+  /// False only when no sample of a row in the buffer is void.
+  bool may_hold_voids(const std::byte* row) const;
   void count_voids(MemoryBudget& budget);
   /// False when there is nothing whole there.
   bool take(const Spool& spool, std::size_t bytes, MemoryBudget& budget);
@@ -88,6 +94,7 @@ class SourceMap {
   bool ends_;            ///< there are places off the map
   SampleType stored_;    ///< kUint8, kUint16 and kInt16 go through decode_, kFloat holds values (void: NaN)
   std::vector<float> decode_;
+  std::vector<std::uint16_t> void_codes_;  ///< numbers of stored_ that decode_ turns into NaN
   Buffer samples_;
   mutable std::size_t touched_ = 0;  ///< bytes of it read since its pages were let go
   std::optional<VoidFill> fill_;

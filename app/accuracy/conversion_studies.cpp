@@ -1,7 +1,7 @@
 #include <memory>
 #include <utility>
 
-#include "app/accuracy/study.h"
+#include "app/accuracy/samples.h"
 #include "converters/round_trip.h"
 
 namespace app::accuracy {
@@ -10,20 +10,6 @@ namespace {
 using converters::Filter;
 using converters::RoundTripMethod;
 using converters::Sampling;
-
-struct Method {
-  const char* name;
-  RoundTripMethod method;
-};
-
-const std::vector<Method> kMethods{
-    {"nearest", {Filter::kNearest, Sampling::kNearest, false}},
-    {"bilinear", {Filter::kBilinear, Sampling::kLinear, false}},
-    {"bicubic", {Filter::kBicubic, Sampling::kLinear, false}},
-    {"area", {Filter::kArea, Sampling::kLinear, false}},
-    {"bicubic, back cubic", {Filter::kBicubic, Sampling::kCubic, false}},
-    {"--as-thesis, bilinear", {Filter::kBilinear, Sampling::kLinear, true}},
-};
 
 using Map = std::shared_ptr<const converters::HeightMap>;
 
@@ -54,19 +40,17 @@ Study study_of(std::string name, std::string title, std::string knob, const Map&
 }  // namespace
 
 std::vector<Study> conversion_studies(const Scope& scope) {
-  const int width = scope.full ? 1024 : 512;
-  const int own_level = scope.full ? 8 : 7;  // as many cells around the equator as pixels
-  const converters::Harmonics relief(64, 20261124, 1000.0);
+  const auto [width, truth_width, own_level] = map_sample(scope);
+  const converters::Harmonics relief = known_relief();
   const Map map = std::make_shared<const converters::HeightMap>(map_of(relief, width));
-  // Of another width, so that what lies between the samples counts.
-  const Map truth = std::make_shared<const converters::HeightMap>(map_of(relief, width * 3 / 2));
+  const Map truth = std::make_shared<const converters::HeightMap>(map_of(relief, truth_width));
   std::vector<Study> studies;
   for (const int level : {own_level - 1, own_level, own_level + 1}) {
     Study study = study_of("conversion.filter.l" + std::to_string(level),
                            "A map of " + std::to_string(width) + " pixels to level " + std::to_string(level) +
                                " and back, by filter",
-                           "convert --filter", truth);
-    for (const Method& method : kMethods) {
+                           "--filter, --as-thesis", truth);
+    for (const converters::NamedRoundTrip& method : converters::round_trip_methods()) {
       const bool is_default =
           method.method.filter == (level < own_level ? Filter::kArea : Filter::kBilinear) &&
           !method.method.as_thesis;
@@ -74,7 +58,8 @@ std::vector<Study> conversion_studies(const Scope& scope) {
     }
     studies.push_back(std::move(study));
   }
-  Study levels = study_of("conversion.level", "The same by level, bilinear", "convert --level", truth);
+  Study levels =
+      study_of("conversion.level", "The same by level, bilinear", "convert --level, inset --level", truth);
   for (int level = own_level - 2; level <= own_level + (scope.full ? 3 : 2); ++level) {
     levels.settings.push_back(setting_of("level " + std::to_string(level),
                                          {Filter::kBilinear, Sampling::kLinear, false}, level, map, truth,

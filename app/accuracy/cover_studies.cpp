@@ -1,8 +1,7 @@
 #include <memory>
 #include <numbers>
-#include <random>
 
-#include "app/accuracy/study.h"
+#include "app/accuracy/samples.h"
 #include "globe/htm/cone.h"
 #include "globe/htm/cover.h"
 
@@ -12,19 +11,6 @@ namespace {
 using globe::htm::Cone;
 using globe::htm::CoverSettings;
 using globe::htm::dvec3;
-
-constexpr double kRadius_deg = 1.0;
-
-std::vector<dvec3> centres(std::size_t count) {
-  std::mt19937_64 random(11);
-  std::normal_distribution<double> normal;
-  std::vector<dvec3> result{{0, 0, 1}, {1, 0, 0}, {0, -1, 0}};  // corners of the octahedron
-  while (result.size() < count) {
-    const dvec3 u{normal(random), normal(random), normal(random)};
-    result.push_back(u / std::sqrt(u.x * u.x + u.y * u.y + u.z * u.z));
-  }
-  return result;
-}
 
 /// Area of a trixel on the unit sphere, by the tangent of half of it (Van Oosterom and Strackee 1983).
 double area(globe::htm::Trixel trixel) {
@@ -52,13 +38,13 @@ Study study_of(const char* name, const char* title, const char* knob, const std:
               "% too much area",
               "us a cover",
               {}};
-  const double cap = 2.0 * std::numbers::pi * (1.0 - std::cos(kRadius_deg * std::numbers::pi / 180.0));
+  const double cap = 2.0 * std::numbers::pi * (1.0 - std::cos(kConeRadius_deg * std::numbers::pi / 180.0));
   for (const auto& labelled : settings) {
     const CoverSettings cover = labelled.second;
     ErrorSum sum;
     std::size_t ranges = 0;
     for (std::size_t k = 0; k < at.size(); ++k) {
-      const auto found = globe::htm::cover(Cone(at[k], kRadius_deg), cover);
+      const auto found = globe::htm::cover(Cone(at[k], kConeRadius_deg), cover);
       ranges += found.size();
       sum.add(100.0 * (area_of(found, cover.level) / cap - 1.0), [&] { return "cone " + std::to_string(k); });
     }
@@ -66,7 +52,7 @@ Study study_of(const char* name, const char* title, const char* knob, const std:
         static_cast<double>(at.size()),
         [=] {
           std::size_t all = 0;
-          for (const dvec3& u : at) all += globe::htm::cover(Cone(u, kRadius_deg), cover).size();
+          for (const dvec3& u : at) all += globe::htm::cover(Cone(u, kConeRadius_deg), cover).size();
           keep(static_cast<double>(all));
         },
         1e3);
@@ -79,7 +65,7 @@ Study study_of(const char* name, const char* title, const char* knob, const std:
 }  // namespace
 
 std::vector<Study> cover_studies(const Scope& scope) {
-  const std::vector<dvec3> at = centres(scope.full ? 100 : 20);
+  const std::vector<dvec3> at = cone_centres(scope);
   std::vector<std::pair<std::string, CoverSettings>> levels, limits;
   for (int level = 6; level <= (scope.full ? 14 : 12); ++level)
     levels.push_back({"level " + std::to_string(level), {.level = level}});

@@ -2,9 +2,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <numbers>
-#include <random>
 
-#include "app/accuracy/study.h"
+#include "app/accuracy/samples.h"
 #include "app/accuracy/vincenty.h"
 #include "globe/geo/geodesic.h"
 
@@ -16,35 +15,11 @@ using globe::geo::kWgs84;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-struct Pair {
-  Geodetic a, b;
-};
-
-std::string place_text(const Pair& pair) {
+std::string place_text(const PlacePair& pair) {
   char text[96];
   std::snprintf(text, sizeof text, "%.6f,%.6f to %.6f,%.6f", pair.a.lat_deg, pair.a.lon_deg, pair.b.lat_deg,
                 pair.b.lon_deg);
   return text;
-}
-
-/// Of each kind `count`: anywhere, within a kilometre, nearly opposite, along the equator and meridians.
-std::vector<Pair> sample_pairs(std::size_t count) {
-  std::mt19937_64 random(9);
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const auto anywhere = [&] { return Geodetic{std::asin(unit(random)) / kDegree, 180.0 * unit(random)}; };
-  std::vector<Pair> pairs;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Geodetic a = anywhere();
-    pairs.push_back({a, anywhere()});
-    pairs.push_back(
-        {a, {std::clamp(a.lat_deg + 0.005 * unit(random), -90.0, 90.0), a.lon_deg + 0.005 * unit(random)}});
-    pairs.push_back({a,
-                     {-a.lat_deg + 0.3 * unit(random) * (std::abs(a.lat_deg) < 89.0 ? 1.0 : 0.0),
-                      a.lon_deg + 180.0 + 0.3 * unit(random)}});
-    pairs.push_back(
-        {{0.0, a.lon_deg}, {k % 2 == 0 ? 0.0 : 90.0 * unit(random), a.lon_deg + (k % 2 == 0 ? 170.0 : 0.0)}});
-  }
-  return pairs;
 }
 
 constexpr const char* kPairs =
@@ -53,15 +28,15 @@ constexpr const char* kPairs =
 
 /// Time of `distance` over all pairs, a pair.
 template <typename Distance>
-std::function<double()> time_a_pair(const std::vector<Pair>& pairs, Distance distance) {
+std::function<double()> time_a_pair(const std::vector<PlacePair>& pairs, Distance distance) {
   return timed(static_cast<double>(pairs.size()), [=] {
     double sum = 0;
-    for (const Pair& pair : pairs) sum += distance(pair);
+    for (const PlacePair& pair : pairs) sum += distance(pair);
     keep(sum);
   });
 }
 
-double haversine(const Pair& pair, double radius) {
+double haversine(const PlacePair& pair, double radius) {
   const double dlat = (pair.b.lat_deg - pair.a.lat_deg) * kDegree,
                dlon = (pair.b.lon_deg - pair.a.lon_deg) * kDegree;
   const double y = std::sin(dlat / 2.0), x = std::sin(dlon / 2.0);
@@ -69,7 +44,7 @@ double haversine(const Pair& pair, double radius) {
   return 2.0 * radius * std::asin(std::sqrt(std::min(h, 1.0)));
 }
 
-double arc_cosine(const Pair& pair, double radius) {
+double arc_cosine(const PlacePair& pair, double radius) {
   const double a = pair.a.lat_deg * kDegree, b = pair.b.lat_deg * kDegree;
   const double c = std::sin(a) * std::sin(b) +
                    std::cos(a) * std::cos(b) * std::cos((pair.b.lon_deg - pair.a.lon_deg) * kDegree);
@@ -77,7 +52,7 @@ double arc_cosine(const Pair& pair, double radius) {
 }
 
 /// In long double, by the arc tangent, which is sharp at every separation.
-double sphere_truth(const Pair& pair, double radius) {
+long double sphere_truth(const PlacePair& pair, double radius) {
   using Long = long double;
   constexpr Long kLongDegree = std::numbers::pi_v<Long> / 180.0L;
   const Long a = Long(pair.a.lat_deg) * kLongDegree, b = Long(pair.b.lat_deg) * kLongDegree;
@@ -85,13 +60,13 @@ double sphere_truth(const Pair& pair, double radius) {
   const Long x = std::cos(b) * std::sin(l);
   const Long y = std::cos(a) * std::sin(b) - std::sin(a) * std::cos(b) * std::cos(l);
   const Long z = std::sin(a) * std::sin(b) + std::cos(a) * std::cos(b) * std::cos(l);
-  return static_cast<double>(Long(radius) * std::atan2(std::sqrt(x * x + y * y), z));
+  return Long(radius) * std::atan2(std::sqrt(x * x + y * y), z);
 }
 
-Study on_the_ellipsoid(const std::vector<Pair>& pairs) {
+Study on_the_ellipsoid(const std::vector<PlacePair>& pairs) {
   const GeographicLib::GeodesicExact exact(kWgs84.a, kWgs84.f);
   std::vector<double> truth;
-  for (const Pair& pair : pairs) {
+  for (const PlacePair& pair : pairs) {
     double s12 = 0;
     exact.Inverse(pair.a.lat_deg, pair.a.lon_deg, pair.b.lat_deg, pair.b.lon_deg, s12);
     truth.push_back(s12);
@@ -115,7 +90,7 @@ Study on_the_ellipsoid(const std::vector<Pair>& pairs) {
     std::string note;
     if (unsettled > 0)
       note = "no answer to " + std::to_string(unsettled) + " of " + std::to_string(pairs.size()) + " pairs";
-    const auto cost = time_a_pair(pairs, [distance](const Pair& pair) {
+    const auto cost = time_a_pair(pairs, [distance](const PlacePair& pair) {
       const std::optional<double> found = distance(pair);
       return found.value_or(0.0);
     });
@@ -123,17 +98,18 @@ Study on_the_ellipsoid(const std::vector<Pair>& pairs) {
   };
   const double radius = kWgs84.mean_radius();
   add(
-      "great circle", [radius](const Pair& pair) { return std::optional(haversine(pair, radius)); }, false);
+      "great circle", [radius](const PlacePair& pair) { return std::optional(haversine(pair, radius)); },
+      false);
   add(
-      "Vincenty", [](const Pair& pair) { return vincenty(kWgs84, pair.a, pair.b); }, false);
+      "Vincenty", [](const PlacePair& pair) { return vincenty(kWgs84, pair.a, pair.b); }, false);
   const globe::geo::GeodesicSolver karney(kWgs84);
   add(
-      "Karney", [karney](const Pair& pair) { return std::optional(karney.inverse(pair.a, pair.b).s12_m); },
-      true);
+      "Karney",
+      [karney](const PlacePair& pair) { return std::optional(karney.inverse(pair.a, pair.b).s12_m); }, true);
   return study;
 }
 
-Study on_the_sphere(const std::vector<Pair>& pairs) {
+Study on_the_sphere(const std::vector<PlacePair>& pairs) {
   const double radius = kWgs84.mean_radius();
   Study study{"geodesics.sphere",
               "Distance on a sphere of the Earth's size",
@@ -145,22 +121,24 @@ Study on_the_sphere(const std::vector<Pair>& pairs) {
               {}};
   const auto add = [&](const char* name, auto distance, bool is_default) {
     ErrorSum sum;
-    for (const Pair& pair : pairs)
-      sum.add(distance(pair) - sphere_truth(pair, radius), [&] { return place_text(pair); });
+    for (const PlacePair& pair : pairs)
+      sum.add(static_cast<double>(distance(pair) - sphere_truth(pair, radius)),
+              [&] { return place_text(pair); });
     study.settings.push_back({name, sum.figure(), time_a_pair(pairs, distance), is_default});
   };
   add(
-      "arc cosine", [radius](const Pair& pair) { return arc_cosine(pair, radius); }, false);
+      "arc cosine", [radius](const PlacePair& pair) { return arc_cosine(pair, radius); }, false);
   add(
-      "haversine", [radius](const Pair& pair) { return haversine(pair, radius); }, false);
+      "haversine", [radius](const PlacePair& pair) { return haversine(pair, radius); }, false);
   const globe::geo::GeodesicSolver solver(globe::geo::Ellipsoid{radius, 0.0});
   add(
-      "Karney, f = 0", [solver](const Pair& pair) { return solver.inverse(pair.a, pair.b).s12_m; }, true);
+      "Karney, f = 0", [solver](const PlacePair& pair) { return solver.inverse(pair.a, pair.b).s12_m; },
+      true);
   return study;
 }
 
 /// Where a latitude and longitude lie in space.
-Study shape(const std::vector<Pair>& pairs) {
+Study shape(const std::vector<PlacePair>& pairs) {
   Study study{"geodesics.shape",
               "Place in space: ellipsoid or sphere",
               "--ellipsoid",
@@ -188,11 +166,11 @@ Study shape(const std::vector<Pair>& pairs) {
         return place_text({place, place}).substr(0, place_text({place, place}).find(" to "));
       });
     };
-    for (const Pair& pair : pairs) look(pair.a);
+    for (const PlacePair& pair : pairs) look(pair.a);
     for (const double lat : {-90.0, 0.0, 90.0}) look({lat, 45.0});
     const auto cost = timed(static_cast<double>(pairs.size()), [=] {
       double all = 0;
-      for (const Pair& pair : pairs) all += globe::geo::ecef_from_geodetic(body, pair.a).x;
+      for (const PlacePair& pair : pairs) all += globe::geo::ecef_from_geodetic(body, pair.a).x;
       keep(static_cast<double>(all));
     });
     study.settings.push_back({name, sum.figure(), cost, is_default});
@@ -205,7 +183,7 @@ Study shape(const std::vector<Pair>& pairs) {
 }  // namespace
 
 std::vector<Study> geodesic_studies(const Scope& scope) {
-  const std::vector<Pair> pairs = sample_pairs(scope.full ? 2500 : 250);
+  const std::vector<PlacePair> pairs = geodesic_pairs(scope);
   return {on_the_ellipsoid(pairs), on_the_sphere(pairs), shape(pairs)};
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
 
 #include "converters/harmonics.h"
+#include "globe/base/temporary_folder.h"
 #include "globe/planet/surface.h"
 
 namespace app::accuracy {
@@ -13,14 +13,11 @@ namespace app::accuracy {
 class HarmonicPlanet {
  public:
   HarmonicPlanet(const converters::Harmonics& harmonics, int level);
-  HarmonicPlanet(const HarmonicPlanet&) = delete;
-  HarmonicPlanet& operator=(const HarmonicPlanet&) = delete;
-  ~HarmonicPlanet();
 
   const std::shared_ptr<const globe::planet::Surface>& surface() const { return surface_; }
 
  private:
-  std::filesystem::path folder_;
+  globe::TemporaryFolder folder_;
   std::shared_ptr<const globe::planet::Surface> surface_;
 };
 

@@ -1,9 +1,7 @@
 #include <cstdio>
-#include <numbers>
-#include <random>
 
 #include "app/accuracy/harmonic_planet.h"
-#include "app/accuracy/study.h"
+#include "app/accuracy/samples.h"
 #include "globe/planet/interpolation.h"
 
 namespace app::accuracy {
@@ -11,36 +9,11 @@ namespace {
 
 using globe::planet::Interpolation;
 
-constexpr int kDegree = 64;
-constexpr double kRelief_m = 1000.0;
-
-/// Anywhere, and on what interpolation finds hard: poles, edges of diamonds, the equator's fold.
-std::vector<globe::geo::Geodetic> places(std::size_t count) {
-  std::mt19937_64 random(21);
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  std::vector<globe::geo::Geodetic> result{{90, 0}, {-90, 0}, {0, 0}, {0, 90}, {0, 180}};
-  while (result.size() < count) {
-    const double lat = std::asin(unit(random)) * 180.0 / std::numbers::pi, lon = 180.0 * unit(random);
-    switch (result.size() % 5) {
-      case 0:
-        result.push_back({lat, 90.0 * static_cast<double>(result.size() / 5 % 4)});
-        break;
-      case 1:
-        result.push_back({0.0, lon});
-        break;
-      default:
-        result.push_back({lat, lon});
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 std::vector<Study> height_studies(const Scope& scope) {
-  const converters::Harmonics harmonics(kDegree, 20261124, kRelief_m);
-  const auto at =
-      std::make_shared<const std::vector<globe::geo::Geodetic>>(places(scope.full ? 20000 : 4000));
+  const converters::Harmonics harmonics = known_relief();
+  const auto at = std::make_shared<const std::vector<globe::geo::Geodetic>>(height_places(scope));
   std::vector<double> truth;
   for (const auto& place : *at) truth.push_back(harmonics.at(place.lat_deg, place.lon_deg));
   std::vector<Study> studies;
@@ -49,7 +22,7 @@ std::vector<Study> height_studies(const Scope& scope) {
     Study study{
         "heights.interpolation.l" + std::to_string(level),
         "Height between the nodes of level " + std::to_string(level),
-        "height --interpolation",
+        "--interpolation",
         "the function itself: harmonics to degree 64, 1000 m RMS",
         std::to_string(at->size()) + " places: anywhere, on edges of diamonds, on the equator, at the poles",
         "m",

@@ -6,25 +6,13 @@
 #include <sstream>
 
 #include "app/accuracy/report.h"
-#include "app/piped_program.h"
+#include "app/gnuplot.h"
 #include "app/records.h"
 #include "globe/base/error.h"
-#include "globe/base/pending_file.h"
+#include "globe/base/temporary_folder.h"
 
 namespace app::accuracy {
 namespace {
-
-/// A string of gnuplot's, in single quotes.
-std::string literal(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
-  return quoted + "'";
-}
-
-struct Point {
-  double cost, low, high, error;
-  const std::string& name;
-};
 
 /// Limits of a logarithmic axis around values, with room for labels.
 std::pair<double, double> axis(const std::vector<double>& values, double room_below, double room_above) {
@@ -50,14 +38,14 @@ std::string script(const MeasuredStudy& measured, const std::filesystem::path& o
   std::string text =
       "set terminal svg size 900,420 noenhanced font 'DejaVu Sans,13' background rgb 'white'\n"
       "set encoding utf8\nset output " +
-      literal(output.string()) +
+      gnuplot_literal(output.string()) +
       "\n"
       "set logscale xy\nset format xy '%g'\nset grid lt 1 lc rgb '#e4e4e4'\nunset key\n"
       "set border 3 lc rgb '#444444'\nset tics nomirror out\n"
       "set xlabel " +
-      literal(study.cost_unit) + "\nset ylabel " + literal("largest error, " + study.error_unit) +
-      "\nset xrange [" + number_text(x0, 12) + ":" + number_text(x1, 12) + "]\nset yrange [" +
-      number_text(y0, 15) + ":" + number_text(y1, 15) + "]\n";
+      gnuplot_literal(study.cost_unit) + "\nset ylabel " +
+      gnuplot_literal("largest error, " + study.error_unit) + "\nset xrange [" + number_text(x0, 12) + ":" +
+      number_text(x1, 12) + "]\nset yrange [" + number_text(y0, 15) + ":" + number_text(y1, 15) + "]\n";
   const auto block = [&](const char* name, const auto& wanted) {
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < errors.size(); ++k)
@@ -85,13 +73,11 @@ std::string script(const MeasuredStudy& measured, const std::filesystem::path& o
 }  // namespace
 
 std::string plot_of(const MeasuredStudy& study) {
-  const globe::PendingFile drawing(std::filesystem::temp_directory_path() / "globe-accuracy.svg", true);
-  PipedProgram gnuplot({"gnuplot", "-d", "-"}, "install gnuplot-nox");
-  const std::string commands = script(study, drawing.temporary());
-  gnuplot.write({reinterpret_cast<const std::uint8_t*>(commands.data()), commands.size()});
-  gnuplot.finish();
+  const globe::TemporaryFolder folder("globe-accuracy");
+  const std::filesystem::path drawing = folder / "plot.svg";
+  run_gnuplot(script(study, drawing), "install gnuplot-nox");
   std::ostringstream text;
-  text << std::ifstream(drawing.temporary()).rdbuf();
+  text << std::ifstream(drawing).rdbuf();
   const std::size_t begin = text.str().find("<svg");  // what precedes it has no place inside a page
   if (begin == std::string::npos) throw globe::Error("gnuplot", "drew nothing", "see whether gnuplot works");
   return text.str().substr(begin);

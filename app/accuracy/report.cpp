@@ -68,13 +68,14 @@ std::string text_of(const std::vector<MeasuredStudy>& studies) {
   std::string text;
   for (const MeasuredStudy& measured : studies) {
     const Study& study = measured.study;
+    const std::size_t error_width = std::max<std::size_t>(14, study.error_unit.size() + 7);
     text += study.title + (study.knob.empty() ? "" : " (" + study.knob + ")") + "\n";
-    text += "  " + padded("", 30) + padded("max, " + study.error_unit, 14) + padded("RMS", 12) +
+    text += "  " + padded("", 30) + padded("max, " + study.error_unit, error_width) + padded("RMS", 12) +
             padded(study.cost_unit, 26) + "\n";
     for (std::size_t k = 0; k < study.settings.size(); ++k) {
       const Setting& setting = study.settings[k];
       const CostFigure& cost = measured.costs[k];
-      text += "  " + padded(setting.name, 30) + padded(figure(setting.error.max), 14) +
+      text += "  " + padded(setting.name, 30) + padded(figure(setting.error.max), error_width) +
               padded(figure(setting.error.rms), 12) +
               padded(figure(cost.median) + " (" + figure(cost.q1) + " to " + figure(cost.q3) + ")", 26) +
               (setting.is_default ? "default " : "") + (measured.on_front[k] ? "*" : "") + "\n";

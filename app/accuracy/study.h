@@ -51,10 +51,10 @@ struct Setting {
 
 /// A knob, what each of its settings costs and what it errs by.
 struct Study {
-  std::string name;   ///< "geodesics.ellipsoid"
-  std::string title;  ///< for people
-  std::string
-      knob;  ///< the option that turns it; "" where the program has one setting and the rest are yardsticks
+  std::string name;       ///< "geodesics.ellipsoid"
+  std::string title;      ///< for people
+  std::string knob;       ///< the options that turn it, ", " between them, the command before them where
+                          ///< other commands mean something else; "" where no option does
   std::string reference;  ///< what errors are measured against
   std::string sample;     ///< over what, the hard places in it
   std::string error_unit;
@@ -71,15 +71,19 @@ struct Scope {
 struct Family {
   std::string name;
   std::function<std::vector<Study>(const Scope&)> studies;
+  std::vector<std::string> knobs = {};           ///< Study::knob of its studies, known without running them
+  std::vector<std::string> approximations = {};  ///< names of its studies of what no option turns
 };
 
 /// All families, in the order of the report.
 std::vector<Family> families();
 
+std::vector<Study> geometry_studies(const Scope& scope);
 std::vector<Study> geodesic_studies(const Scope& scope);
 std::vector<Study> height_studies(const Scope& scope);
 std::vector<Study> storage_studies(const Scope& scope);
 std::vector<Study> conversion_studies(const Scope& scope);
+std::vector<Study> question_studies(const Scope& scope);
 std::vector<Study> cover_studies(const Scope& scope);
 
 /// Takes what work comes to, so that no compiler leaves it out.

@@ -14,7 +14,7 @@ namespace globe::geo {
 ///
 /// The tangent is folded to [-tan 22.5, tan 22.5] degrees, where the rational function of Cephes' atan.c
 /// (Moshier 1995, relative error 1.8e-16) takes over. Error at most 5e-14 degrees, 6 nm on the Earth
-/// (tests/unit/geo/arctangent_test.cpp).
+/// (tests/unit/geo/arctangent_test.cpp). @approximation geometry.arctangent
 GLOBE_INLINE double arctangent(double y, double x) {
   const double ax = std::abs(x), ay = std::abs(y);
   const std::uint64_t steep = mask_of(ay > ax);

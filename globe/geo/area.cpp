@@ -44,15 +44,21 @@ double rule(const Flat& f, double e2) {
   return sum;
 }
 
-/// Sides up to which seven points do: 2e-14 of the result for |f| <= 0.1, and 64 times less for half the
-/// side.
-constexpr double kSmallSide = 0.0155;
-
-bool is_small(const Flat& f) {
+/// Square of the longest side.
+double longest_squared(const Flat& f) {
   const dvec3 third = f.t - f.s;
-  return std::max({glm::dot(f.s, f.s), glm::dot(f.t, f.t), glm::dot(third, third)}) <=
-         kSmallSide * kSmallSide;
+  return std::max({glm::dot(f.s, f.s), glm::dot(f.t, f.t), glm::dot(third, third)});
 }
+
+/// Whether seven points do: on sides up to kSmallSide they err by 2e-14 of the result for |f| <= 0.1, and 64
+/// times more on sides twice as long.
+bool seven_points_do(double squared, double tolerance) {
+  constexpr double kSmallSide = 0.0155, kError = 2e-14;
+  const double ratio = squared / (kSmallSide * kSmallSide);
+  return ratio <= 1.0 || kError * ratio * ratio * ratio <= tolerance;
+}
+
+bool one_point_does(double squared, double tolerance) { return squared <= 4.0 * tolerance; }
 
 /// The same by Radon's rule of degree 5 (Abramowitz and Stegun 1964, 25.4.63).
 double small_rule(const Flat& f, double e2) {
@@ -85,11 +91,15 @@ double integral(const Flat& f, double e2, double estimate, int depth) {
 
 }  // namespace
 
-double surface_area(const Ellipsoid& ellipsoid, const std::array<dvec3, 3>& corners) {
+double surface_area(const Ellipsoid& ellipsoid, const std::array<dvec3, 3>& corners, double tolerance) {
   const Flat f{corners[0], corners[1] - corners[0], corners[2] - corners[0]};
   const double e2 = ellipsoid.f * (2.0 - ellipsoid.f);
   const double b = ellipsoid.b();
-  const double elements = is_small(f) ? small_rule(f, e2) : integral(f, e2, rule(f, e2), 0);
+  const double longest = longest_squared(f);
+  const double elements = one_point_does(longest, tolerance)
+                              ? 0.5 * element(f.corner + (1.0 / 3.0) * (f.s + f.t), e2)
+                          : seven_points_do(longest, tolerance) ? small_rule(f, e2)
+                                                                : integral(f, e2, rule(f, e2), 0);
   return b * b * glm::dot(f.corner, glm::cross(f.s, f.t)) * elements;
 }
 

@@ -15,7 +15,7 @@ struct Geodesic {
 };
 
 /// Geodesics of one ellipsoid. Copies share what was computed for it; safe to call from any thread.
-///
+/// @approximation geodesics.ellipsoid, geodesics.sphere
 /// Heights are not looked at. Where several paths are shortest the one taken is GeographicLib's: between
 /// opposite places, on a sphere or an oblate ellipsoid, by way of the north pole; from a place to itself it
 /// has azimuth 180 (from a pole: that of the longitudes). Karney's series up to |f| = 0.02, his elliptic

@@ -15,7 +15,7 @@ struct SineCosine {
 inline constexpr double kLargestAngle_deg = 0x1p40;
 
 /// Sine and cosine of an angle in degrees, |angle| <= kLargestAngle_deg.
-///
+/// @approximation geometry.sine_cosine
 /// The same bits one by one and in vectors of any width, and on every machine that keeps to IEEE 754: nothing
 /// here calls a mathematical library. Trixel ids are defined on these bits.
 ///

@@ -8,7 +8,7 @@ namespace globe::htm {
 using glm::dvec3;
 
 /// The vertex that HTM puts in the middle of edge ab: normalise(a + b).
-///
+/// @approximation geometry.midpoints
 /// Symmetric in a and b bit for bit, so the two trixels beside an edge get the same vertex. Every vertex of
 /// the mesh, the index, and the height grid comes from this one function (compiled without contraction).
 /// Source: Szalay et al. 2005, "Indexing the Sphere with the Hierarchical Triangular Mesh", section 2.

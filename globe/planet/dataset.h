@@ -15,9 +15,9 @@ namespace globe::planet {
 /// One layer of a planet. Every layer is a pyramid of the four diamonds, levels `level` down to 0; level k of
 /// a diamond has (2^k + 1)^2 nodes.
 ///
-/// - "height": metres above the vertical datum, one channel. Coarser levels by sub-sampling: a coarse sample
-/// *is* a
-///   fine sample.
+/// - "height": metres above the vertical datum, one channel, fp32. Coarser levels by sub-sampling: a coarse
+///   sample *is* a fine sample.
+///   @approximation storage.heights
 /// - "relief": the same heights, coarser levels filtered, for slopes that do not alias in shading. Its finest
 /// level
 ///   is that of "height" and is not stored twice.

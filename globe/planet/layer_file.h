@@ -29,7 +29,7 @@ class LayerFileWriter {
   void write_level(const std::vector<std::filesystem::path>& parts,
                    const std::function<void(int rows)>& written = {});
 
-  /// Ends the file after level 0 and syncs it to disk.
+  /// Ends the file after level 0; sync_to_disk (planet/planet_file.h) brings it to the disk.
   void finish();
 
  private:

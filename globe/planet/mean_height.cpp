@@ -9,7 +9,8 @@ namespace globe::planet {
 namespace {
 
 /// The level whose trixels are weighted by their true areas.
-int weighted_level(int height_level) { return std::max(std::min(height_level, 8), height_level - 2); }
+constexpr int kWeighted = 8;
+int weighted_level(int height_level) { return std::max(std::min(height_level, kWeighted), height_level - 2); }
 
 /// The mean over the heights' trixels in t, taken as equal: a node counts once for each that it is a corner
 /// of, 1 at the corners, 3 on the sides, 6 inside.
@@ -29,11 +30,11 @@ double plain_mean(const HeightBlock& heights, const LatticeTrixel& t) {
 }  // namespace
 
 double mean_of_children(const geo::Ellipsoid& ellipsoid, const htm::Corners& corners,
-                        const std::array<double, 4>& means) {
+                        const std::array<double, 4>& means, double tolerance) {
   const auto parts = children_corners(corners);
   double area = 0, sum = 0;
   for (std::size_t k = 0; k < 4; ++k) {
-    const double part = geo::surface_area(ellipsoid, parts[k]);
+    const double part = geo::surface_area(ellipsoid, parts[k], tolerance);
     area += part;
     sum += part * means[k];
   }
@@ -48,7 +49,8 @@ double mean_height(const geo::Ellipsoid& ellipsoid, const HeightBlock& heights, 
   const auto part_corners = children_corners(corners);
   std::array<double, 4> means{};
   for (std::size_t k = 0; k < 4; ++k) means[k] = mean_height(ellipsoid, heights, parts[k], part_corners[k]);
-  return mean_of_children(ellipsoid, corners, means);
+  constexpr double kExact = 1e-8, kFine = 2e-5;
+  return mean_of_children(ellipsoid, corners, means, t.level < kWeighted ? kExact : kFine);
 }
 
 }  // namespace globe::planet

@@ -46,13 +46,14 @@ struct HeightBlock {
 /// the area (mean_height_test).
 /// @param corners  of the trixel, in the order of its nodes
 /// REQUIRES: the trixel lies in the block; its level is between block_level and the heights' level.
-/// Error: 2e-5 of the difference between the highest and the lowest height.
+/// Error: 2e-5 of the difference between the highest and the lowest height, 1e-7 down to level 8.
 double mean_height(const geo::Ellipsoid& ellipsoid, const HeightBlock& heights, const LatticeTrixel& t,
                    const htm::Corners& corners);
 
-/// Mean of a trixel from those of its children, weighted by their true areas.
+/// Mean of a trixel from those of its children, weighted by their areas.
 /// @param means  of children(t), in their order
+/// @param tolerance  error of an area, of the area: what one child gains, another loses
 double mean_of_children(const geo::Ellipsoid& ellipsoid, const htm::Corners& corners,
-                        const std::array<double, 4>& means);
+                        const std::array<double, 4>& means, double tolerance = 1e-8);
 
 }  // namespace globe::planet

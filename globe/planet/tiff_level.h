@@ -11,8 +11,8 @@ struct tiff;
 
 namespace globe::planet {
 
-/// How one level of a layer lies in a TIFF: tiles of tile_size x tile_size samples, deflated;
-/// those at the right and lower rims hold whole tiles too.
+/// How one level of a layer lies in a TIFF: tiles of tile_size x tile_size samples, deflated
+/// (planet/tile_packer.h); those at the right and lower rims hold whole tiles too.
 struct TiffLevel {
   int width = 0;   ///< samples
   int height = 0;  ///< likewise
@@ -37,6 +37,8 @@ struct SampleRect {
 /// row and column.
 void cut_tile(const SampleRect& rect, int x, int y, const TiffLevel& level, std::vector<std::byte>& tile);
 
+class TilePacker;
+
 /// A TIFF being written, level after level. The same samples give the same bytes: no date, host or thread
 /// count gets in. Every function throws Error when the file cannot be written.
 class TiffWriter {
@@ -49,11 +51,11 @@ class TiffWriter {
 
   void begin_level(const TiffLevel& level);
   /// The tile in column ti and row tj: tile_bytes() of samples, row by row, channels interleaved.
-  void write_tile(int ti, int tj, std::vector<std::byte>& tile);
+  void write_tile(int ti, int tj, const std::vector<std::byte>& tile);
   /// The same from its compressed bytes, as TiffTiles::raw_tile gives them.
   void write_raw_tile(int ti, int tj, const std::vector<std::byte>& bytes);
   void end_level();
-  /// Ends the file and syncs it to disk.
+  /// Ends the file; sync_to_disk (planet/planet_file.h) brings it to the disk.
   void finish();
 
  private:
@@ -67,6 +69,7 @@ class TiffWriter {
   std::string message_;  ///< the library's last; it must outlive the file
   std::unique_ptr<tiff, Closer> file_;
   TiffLevel level_;
+  std::unique_ptr<TilePacker> packer_;
 };
 
 /// Compressed tiles of the first level of a TIFF that TiffWriter wrote. Throws Error when it cannot be read.

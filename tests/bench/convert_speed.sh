@@ -6,17 +6,20 @@
 # averaged. gdalwarp reprojects to the cylindrical equal-area projection, a global raster as fine along the equator as
 # that level (4n x 2n pixels, float32 for heights), without overviews. globe samples at half as many places, and writes
 # all coarser levels too, and the layers made of heights (relief, range, mean).
+# Two more rows of gdalwarp stand beside it, since it alone does less: it puts a pixel up to 0.125 pixels off (-et), where
+# globe is exact, and makes no coarser levels. "exact": gdalwarp -et 0. "overviews": gdaladdo -r average after it, packed
+# alike, down to 64 pixels; one such pyramid, where globe makes two of heights.
 # Needs gdal-bin and GNU time. SYNTHETIC=WxH sets the size of the large made-up source (0x0: none).
 set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
 work=${1:?give a folder for scratch and results}
 runs=${2:-7}
-globe=$top/build/release/app/globe
+globe=${GLOBE:-$top/build/release/app/globe}
 data=${GLOBE_DATA:-$top/../shared/data}
 synthetic=${SYNTHETIC:-21600x10800}
 mkdir -p "$work"
 csv=$work/convert-speed.csv
-for program in gdalwarp gdal_translate gdalinfo; do
+for program in gdalwarp gdaladdo gdal_translate gdalinfo; do
   command -v $program >/dev/null || { echo "convert_speed.sh: no $program: apt-get install gdal-bin" >&2; exit 1; }
 done
 [ -x /usr/bin/time ] || { echo "convert_speed.sh: no GNU time: apt-get install time" >&2; exit 1; }
@@ -45,11 +48,20 @@ compare() {  # name source width projection gdal_options globe_options...
       n=$((1 << level))
       measure "$name, level $level" $filter globe $run "$work/planet" \
         "$globe" convert "$@" -o "$work/planet" --filter $ours --level $level --quiet
-      # shellcheck disable=SC2086
-      measure "$name, level $level" $filter gdalwarp $run "$work/warped.tif" \
-        gdalwarp -q -overwrite -t_srs "$projection" -ts $((4 * n)) $((2 * n)) -r $filter -multi -wo NUM_THREADS=ALL_CPUS $gdal \
-        -co TILED=YES -co BLOCKXSIZE=128 -co BLOCKYSIZE=128 -co COMPRESS=DEFLATE -co ZLEVEL=1 -co NUM_THREADS=ALL_CPUS \
-        -co BIGTIFF=IF_SAFER "$source" "$work/warped.tif"
+      local warp=(gdalwarp -q -overwrite -t_srs "$projection" -ts $((4 * n)) $((2 * n)) -r $filter -multi -wo NUM_THREADS=ALL_CPUS
+        -co TILED=YES -co BLOCKXSIZE=128 -co BLOCKYSIZE=128 -co COMPRESS=DEFLATE -co ZLEVEL=1 -co NUM_THREADS=ALL_CPUS
+        -co BIGTIFF=IF_SAFER)
+      # shellcheck disable=SC2206
+      warp+=($gdal "$source" "$work/warped.tif")
+      measure "$name, level $level" $filter gdalwarp $run "$work/warped.tif" "${warp[@]}"
+      measure "$name, level $level" $filter exact $run "$work/warped.tif" "${warp[@]}" -et 0
+      local factors=() factor
+      for ((factor = 2; 4 * n / factor >= 64; factor *= 2)); do factors+=($factor); done
+      # shellcheck disable=SC2016
+      measure "$name, level $level" $filter overviews $run "$work/warped.tif" \
+        bash -c 'count=$1; shift; "${@:1:count}" && shift "$count" && gdaladdo -q -r average --config COMPRESS_OVERVIEW DEFLATE \
+          --config PREDICTOR_OVERVIEW "$1" --config ZLEVEL_OVERVIEW 1 --config GDAL_NUM_THREADS ALL_CPUS "${@:2}"' \
+        warp ${#warp[@]} "${warp[@]}" "${gdal##*PREDICTOR=}" "$work/warped.tif" "${factors[@]}"
       echo "convert_speed.sh: $name, $filter, run $run of $runs" >&2
     done
   done
@@ -88,8 +100,8 @@ rm -rf "$work/planet" "$work/warped.tif" "$work/time" "$work/errors"
 
 echo "gdalwarp $(gdalinfo --version), $(nproc) threads of $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $runs runs each, in turns"
 echo
-echo "| source | filter | globe, s (median, 95 %) | gdalwarp, s | times as fast | globe, Mpixel/s | peak, MB: globe | gdalwarp | output, MB: globe | gdalwarp |"
-echo "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|"
+echo "| source | filter | globe, s (median, 95 %) | gdalwarp, s | times as fast | exact, s | times as fast | overviews, s | times as fast | globe, Mpixel/s | peak, MB: globe | gdalwarp | output, MB: globe | gdalwarp |"
+echo "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|"
 # The interval of the median by the ranks that hold it with 95 % or more; the lowest and highest where runs are few.
 tail -n +2 "$csv" | sort -t';' -k1,1 -k2,2 -k3,3 -k5,5n | awk -F';' '
   function choose(n, k, c, i) { c = 1; for (i = 1; i <= k; ++i) c = c * (n - k + i) / i; return c }
@@ -104,8 +116,8 @@ tail -n +2 "$csv" | sort -t';' -k1,1 -k2,2 -k3,3 -k5,5n | awk -F';' '
   END {
     for (row in seen) {
       split(row, part, ";"); match(part[1], /[0-9]+x[0-9]+/); split(substr(part[1], RSTART, RLENGTH), size, "x")
-      a = row ";globe"; b = row ";gdalwarp"
-      printf "| %s | %s | %s | %s | %.2f | %.1f | %.0f | %.0f | %.1f | %.1f |\n", part[1], part[2], interval(a), interval(b), \
-        median(b) / median(a), size[1] * size[2] / 1e6 / median(a), peak[a] / 1024, peak[b] / 1024, bytes[a] / 1e6, bytes[b] / 1e6
+      a = row ";globe"; b = row ";gdalwarp"; e = row ";exact"; o = row ";overviews"
+      printf "| %s | %s | %s | %s | %.2f | %s | %.2f | %s | %.2f | %.1f | %.0f | %.0f | %.1f | %.1f |\n", part[1], part[2], \
+        interval(a), interval(b), median(b) / median(a), interval(e), median(e) / median(a), interval(o), median(o) / median(a), size[1] * size[2] / 1e6 / median(a), peak[a] / 1024, peak[b] / 1024, bytes[a] / 1e6, bytes[b] / 1e6
     }
   }' | sort

@@ -55,6 +55,11 @@ TEST(AccuracyCommand, RefusesInOneLine) {
                                     {{"-o", folder.path().string(), "--suite", "long"}, 2},
                                     {{"-o", folder.path().string(), "--only", "storage"}, 1}});
   EXPECT_EQ(text_of(folder / "accuracy.csv"), "mine");
+  const Outcome beneath_a_file =
+      run_program({"accuracy", "-o", (folder / "accuracy.csv" / "report").string(), "--only", "storage"});
+  EXPECT_EQ(beneath_a_file.status, 1);
+  EXPECT_NE(beneath_a_file.err.find("choose a folder that may be written"), std::string::npos)
+      << beneath_a_file.err;
 }
 
 }  // namespace

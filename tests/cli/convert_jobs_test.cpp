@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <random>
 #include <string>
@@ -100,6 +101,25 @@ TEST_F(ConvertJobs, AConversionGoesOnFromThePartsThatAreDone) {
   const Outcome rest = run_program(command());
   EXPECT_EQ(rest.status, 0) << rest.err;
   EXPECT_NE(rest.err.find("3 of 16 parts are done"), std::string::npos) << rest.err;
+  expect_whole();
+}
+
+TEST_F(ConvertJobs, PartsThatMayNotHaveReachedTheDiskCountUntilTheMachineStartsAnew) {
+  for (const char* job : {"0", "7", "14"})
+    ASSERT_EQ(run_program(command() + Words{"--job", job, "--quiet"}).status, 0);
+  const std::filesystem::path work = planet() + ".partial/work";
+  std::string boot = cli::text_of("/proc/sys/kernel/random/boot_id");
+  boot.erase(boot.find_last_not_of('\n') + 1);
+  const auto mark = [&](const char* name, const std::string& time) {
+    const std::string range = cli::text_of(work / name);
+    std::ofstream(work / name) << range.substr(0, range.find('\n')) << ' ' << time << '\n';
+  };
+  mark("height_0_0.done", boot);
+  mark("height_3_1.done", "another-time");
+  std::ofstream(work / "height_3_1.tif") << "what the power left of it";
+  const Outcome rest = run_program(command());
+  EXPECT_EQ(rest.status, 0) << rest.err;
+  EXPECT_NE(rest.err.find("2 of 16 parts are done"), std::string::npos) << rest.err;
   expect_whole();
 }
 

@@ -97,6 +97,11 @@ TEST(Program, RefusesUnknownWordsWithOneLineAndStatus2) {
                   "--positions");
   for (const char* budget : {"-1", "nan", "1e9", "soon"})
     expect_one_line(run_program({"fly", "procedural", "-o", "x.mp4", "--budget", budget}), 2, "--budget");
+  for (const char* option : {"--fov", "--exaggeration"})
+    for (const char* value : {"nan", "inf", "-1", "1e9", "60deg"})
+      expect_one_line(run_program({"shot", "procedural", "-o", "x.png", "--at", "0 0", option, value}), 2,
+                      option);
+  expect_one_line(run_program({"fly", "procedural", "-o", "x.mp4", "--fps", "nan"}), 2, "--fps");
   expect_one_line(run_program({"fly", "procedural", "-o", "x.mp4", "--memory", "3"}), 2, "--memory");
   expect_one_line(run_program({"shot", "procedural", "-o", "x.png", "--at", "0 0", "--window", "round"}), 2,
                   "--window");

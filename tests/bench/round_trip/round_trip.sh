@@ -50,7 +50,7 @@ plot row("nearest") using (\$9+\$10):7 title "nearest" lw 2 pt 7, \
   row("bicubic") using (\$9+\$10):7 title "bicubic" lw 2 pt 7, \
   row("area") using (\$9+\$10):7 title "area" lw 2 pt 7, \
   row("bicubic, back cubic") using (\$9+\$10):7 title "bicubic, back cubic" lw 2 pt 7, \
-  row("thesis, bilinear") using (\$9+\$10):7 title "the thesis' rows" lw 2 pt 5 dt 2
+  row("--as-thesis, bilinear") using (\$9+\$10):7 title "the thesis' rows" lw 2 pt 5 dt 2
 PLOT
 gnuplot "$plot"
 echo "$out/$name.csv, .md, .png" >&2

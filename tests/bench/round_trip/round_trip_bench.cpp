@@ -18,25 +18,8 @@
 
 namespace {
 
-using converters::Filter;
 using converters::HeightMap;
 using converters::RoundTripLoss;
-using converters::RoundTripMethod;
-using converters::Sampling;
-
-struct Method {
-  const char* name;
-  RoundTripMethod method;
-};
-
-const std::vector<Method> kMethods{
-    {"nearest", {Filter::kNearest, Sampling::kNearest, false}},
-    {"bilinear", {Filter::kBilinear, Sampling::kLinear, false}},
-    {"bicubic", {Filter::kBicubic, Sampling::kLinear, false}},
-    {"area", {Filter::kArea, Sampling::kLinear, false}},
-    {"bicubic, back cubic", {Filter::kBicubic, Sampling::kCubic, false}},
-    {"thesis, bilinear", {Filter::kBilinear, Sampling::kLinear, true}},
-};
 
 /// Heights of a picture file; integers as they are.
 HeightMap read_picture(const std::filesystem::path& path, double west_deg) {
@@ -68,7 +51,7 @@ HeightMap read_mars(const std::filesystem::path& path) {
 
 void run(const char* name, const HeightMap& map, const HeightMap& truth, int first_level, int last_level,
          int runs) {
-  for (const Method& method : kMethods) {
+  for (const converters::NamedRoundTrip& method : converters::round_trip_methods()) {
     for (int level = first_level; level <= last_level; ++level) {
       RoundTripLoss loss = converters::round_trip(map, method.method, level, truth);
       for (int k = 1; k < runs; ++k) {

@@ -48,6 +48,24 @@ TEST(SurfaceArea, OfSmallTrianglesIsThatOfLargeOnesCutUp) {
   }
 }
 
+TEST(SurfaceArea, ErrsByLessThanTheToleranceThatIsAllowed) {
+  std::mt19937_64 random(47);
+  int coarser = 0;
+  for (const Ellipsoid& e : {kWgs84, kMoon, Ellipsoid{1.0, 0.1}}) {
+    for (int trial = 0; trial < 2000; ++trial) {
+      const int level = trial % 12;
+      const htm::Trixel t{(htm::kFirstRoot << (2 * level)) + random() % (8ULL << (2 * level))};
+      const double exact = surface_area(e, htm::corners(t));
+      for (const double tolerance : {1e-3, 2e-5, 1e-8}) {
+        const double area = surface_area(e, htm::corners(t), tolerance);
+        EXPECT_NEAR(area / exact, 1.0, tolerance) << htm::name(t) << " f " << e.f;
+        coarser += area != exact;
+      }
+    }
+  }
+  EXPECT_GT(coarser, 1000) << "the tolerance is made use of";
+}
+
 TEST(SurfaceArea, OfTheFourChildrenIsThatOfTheParent) {
   std::mt19937_64 random(41);
   for (int level = 0; level < 12; ++level) {

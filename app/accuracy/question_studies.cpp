@@ -1,0 +1,180 @@
+#include <GeographicLib/Geodesic.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <random>
+
+#include "app/accuracy/samples.h"
+#include "globe/htm/cone.h"
+#include "globe/planet/interpolation.h"
+#include "globe/planet/profile.h"
+#include "globe/planet/sight.h"
+#include "globe/planet/summary.h"
+#include "globe/planet/surface.h"
+
+namespace app::accuracy {
+namespace {
+
+namespace planet = globe::planet;
+using globe::geo::Geodetic;
+using globe::htm::dvec3;
+
+constexpr double kEye_m = 30.0;
+constexpr double kApart_m = 50e3;
+
+using Ground = std::shared_ptr<const planet::Surface>;
+
+double height_of(const planet::Surface& surface, const Geodetic& place, int level) {
+  return planet::height_at(surface, globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg), level,
+                           planet::Interpolation::kLinear)
+      .height_m;
+}
+
+/// Pairs of places kApart_m from each other, both on land, where heights matter.
+std::vector<PlacePair> looks(const planet::Surface& surface, std::size_t count, int level) {
+  const GeographicLib::Geodesic geodesic(surface.ellipsoid().a, surface.ellipsoid().f);
+  std::vector<PlacePair> result;
+  for (const Geodetic& place : height_places({true})) {
+    if (result.size() == count) break;
+    const double azimuth_deg = 137.0 * static_cast<double>(result.size());
+    Geodetic other;
+    geodesic.Direct(place.lat_deg, place.lon_deg, azimuth_deg, kApart_m, other.lat_deg, other.lon_deg);
+    if (std::min(height_of(surface, place, level), height_of(surface, other, level)) > 50.0)
+      result.push_back({place, other});
+  }
+  return result;
+}
+
+std::string text_of(const PlacePair& pair) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%.6f,%.6f to %.6f,%.6f", pair.a.lat_deg, pair.a.lon_deg, pair.b.lat_deg,
+                pair.b.lon_deg);
+  return text;
+}
+
+Study summaries(const Ground& ground, const Scope& scope, int finest) {
+  std::vector<dvec3> centres = cone_centres(scope);
+  const auto regions = std::make_shared<std::vector<globe::htm::Cone>>();
+  for (const dvec3& centre : centres) regions->emplace_back(centre, 0.5 * kConeRadius_deg);
+  const auto highest = [ground](const globe::htm::Cone& cone, int level) {
+    return planet::summarize(*ground, cone, level)->highest.height_m;
+  };
+  std::vector<double> truth;
+  for (const auto& cone : *regions) truth.push_back(highest(cone, finest));
+  Study study{
+      "questions.summary",
+      "The highest place of a region, by the level whose nodes are looked at",
+      "summary --level",
+      "level " + std::to_string(finest),
+      std::to_string(regions->size()) +
+          " cones of half a degree over the built-in planet, three of them on corners of the octahedron",
+      "m",
+      "ms a region",
+      {}};
+  for (int level = finest - 6; level < finest; ++level) {
+    ErrorSum sum;
+    for (std::size_t k = 0; k < truth.size(); ++k)
+      sum.add(highest((*regions)[k], level) - truth[k], [&] { return "cone " + std::to_string(k); });
+    const auto cost = timed(
+        static_cast<double>(regions->size()),
+        [=] {
+          double all = 0;
+          for (const auto& cone : *regions) all += highest(cone, level);
+          keep(all);
+        },
+        1e6);
+    study.settings.push_back(
+        {"level " + std::to_string(level), sum.figure(), cost, level == ground->data_level()});
+  }
+  return study;
+}
+
+Study sights(const Ground& ground, const std::vector<PlacePair>& pairs, int finest) {
+  const auto eyes = std::make_shared<std::vector<PlacePair>>(pairs);
+  for (PlacePair& pair : *eyes) {
+    pair.a.h_m = height_of(*ground, pair.a, finest) + kEye_m;
+    pair.b.h_m = height_of(*ground, pair.b, finest) + kEye_m;
+  }
+  const auto clearance = [ground](const PlacePair& pair, int level) {
+    return planet::sight(*ground, pair.a, pair.b, {.level = level}).lowest.clearance_m;
+  };
+  std::vector<double> truth;
+  for (const PlacePair& pair : *eyes) truth.push_back(clearance(pair, finest));
+  Study study{
+      "questions.sight",
+      "How far a line of sight clears the ground, by the ground's level",
+      "sight --level",
+      "level " + std::to_string(finest),
+      std::to_string(eyes->size()) + " pairs on the built-in planet's land, 50 km apart, 30 m above ground",
+      "m",
+      "ms a look",
+      {}};
+  for (int level = finest - 5; level < finest; ++level) {
+    ErrorSum sum;
+    for (std::size_t k = 0; k < truth.size(); ++k)
+      sum.add(clearance((*eyes)[k], level) - truth[k], [&] { return text_of((*eyes)[k]); });
+    const auto cost = timed(
+        static_cast<double>(eyes->size()),
+        [=] {
+          double all = 0;
+          for (const PlacePair& pair : *eyes) all += clearance(pair, level);
+          keep(all);
+        },
+        1e6);
+    study.settings.push_back(
+        {"level " + std::to_string(level), sum.figure(), cost, level == ground->data_level()});
+  }
+  return study;
+}
+
+Study profiles(const Ground& ground, const std::vector<PlacePair>& pairs, int finest) {
+  const auto ways = std::make_shared<const std::vector<PlacePair>>(pairs);
+  const auto highest = [ground, finest](const PlacePair& pair, std::size_t count) {
+    double top = -1e9;
+    for (const planet::ProfileSample& sample :
+         planet::profile(*ground, pair.a, pair.b, count, finest, planet::Interpolation::kLinear))
+      top = std::max(top, sample.height_m);
+    return top;
+  };
+  constexpr std::size_t kTruth = 10007;  // no multiple of any of the counts
+  std::vector<double> truth;
+  for (const PlacePair& pair : *ways) truth.push_back(highest(pair, kTruth));
+  Study study{"questions.profile",
+              "The highest place on the way between two, by the number of samples",
+              "profile --count",
+              std::to_string(kTruth) + " samples",
+              std::to_string(ways->size()) + " ways of 50 km over the built-in planet's land, level " +
+                  std::to_string(finest),
+              "m",
+              "ms a profile",
+              {}};
+  const std::size_t own = planet::profile_count(*ground, ways->front().a, ways->front().b, finest);
+  for (const std::size_t count : {std::size_t{16}, std::size_t{64}, std::size_t{256}, own}) {
+    ErrorSum sum;
+    for (std::size_t k = 0; k < truth.size(); ++k)
+      sum.add(highest((*ways)[k], count) - truth[k], [&] { return text_of((*ways)[k]); });
+    const auto cost = timed(
+        static_cast<double>(ways->size()),
+        [=] {
+          double all = 0;
+          for (const PlacePair& pair : *ways) all += highest(pair, count);
+          keep(all);
+        },
+        1e6);
+    study.settings.push_back({std::to_string(count) + " samples", sum.figure(), cost, count == own});
+  }
+  return study;
+}
+
+}  // namespace
+
+std::vector<Study> question_studies(const Scope& scope) {
+  const auto ground = planet::Surface::builtin(1);
+  const int finest = scope.full ? 15 : 14;
+  const std::vector<PlacePair> pairs = looks(*ground, scope.full ? 100 : 20, finest);
+  return {summaries(ground, scope, finest), sights(ground, pairs, finest), profiles(ground, pairs, finest)};
+}
+
+}  // namespace app::accuracy

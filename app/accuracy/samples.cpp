@@ -1,0 +1,76 @@
+#include "app/accuracy/samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace app::accuracy {
+namespace {
+
+using globe::geo::Geodetic;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+}  // namespace
+
+std::vector<PlacePair> geodesic_pairs(const Scope& scope) {
+  const std::size_t count = scope.full ? 2500 : 250;
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto anywhere = [&] { return Geodetic{std::asin(unit(random)) / kDegree, 180.0 * unit(random)}; };
+  std::vector<PlacePair> pairs;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Geodetic a = anywhere();
+    pairs.push_back({a, anywhere()});
+    pairs.push_back(
+        {a, {std::clamp(a.lat_deg + 0.005 * unit(random), -90.0, 90.0), a.lon_deg + 0.005 * unit(random)}});
+    pairs.push_back({a,
+                     {-a.lat_deg + 0.3 * unit(random) * (std::abs(a.lat_deg) < 89.0 ? 1.0 : 0.0),
+                      a.lon_deg + 180.0 + 0.3 * unit(random)}});
+    pairs.push_back(
+        {{0.0, a.lon_deg}, {k % 2 == 0 ? 0.0 : 90.0 * unit(random), a.lon_deg + (k % 2 == 0 ? 170.0 : 0.0)}});
+  }
+  return pairs;
+}
+
+std::vector<Geodetic> height_places(const Scope& scope) {
+  const std::size_t count = scope.full ? 20000 : 4000;
+  std::mt19937_64 random(21);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::vector<Geodetic> result{{90, 0}, {-90, 0}, {0, 0}, {0, 90}, {0, 180}};
+  while (result.size() < count) {
+    const double lat = std::asin(unit(random)) / kDegree, lon = 180.0 * unit(random);
+    switch (result.size() % 5) {
+      case 0:
+        result.push_back({lat, 90.0 * static_cast<double>(result.size() / 5 % 4)});
+        break;
+      case 1:
+        result.push_back({0.0, lon});
+        break;
+      default:
+        result.push_back({lat, lon});
+    }
+  }
+  return result;
+}
+
+std::vector<globe::htm::dvec3> cone_centres(const Scope& scope) {
+  const std::size_t count = scope.full ? 100 : 20;
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  std::vector<globe::htm::dvec3> result{{0, 0, 1}, {1, 0, 0}, {0, -1, 0}};
+  while (result.size() < count) {
+    const globe::htm::dvec3 u{normal(random), normal(random), normal(random)};
+    result.push_back(u / std::sqrt(u.x * u.x + u.y * u.y + u.z * u.z));
+  }
+  return result;
+}
+
+converters::Harmonics known_relief() { return {64, 20261124, 1000.0}; }
+
+MapSample map_sample(const Scope& scope) {
+  return scope.full ? MapSample{1024, 1536, 8} : MapSample{512, 768, 7};
+}
+
+}  // namespace app::accuracy
