@@ -19,18 +19,21 @@ constexpr int kSamples = 16;                       ///< of a piece, to see how n
 
 std::vector<double> times_of(const std::vector<PathStop>& stops) {
   std::vector<double> times;
+  times.reserve(stops.size());
   for (const PathStop& stop : stops) times.push_back(stop.time_s);
   return times;
 }
 
 std::vector<bool> rests_of(const std::vector<PathStop>& stops) {
   std::vector<bool> rests;
+  rests.reserve(stops.size());
   for (const PathStop& stop : stops) rests.push_back(stop.stop);
   return rests;
 }
 
 SphereCurve place_of(const std::vector<PathStop>& stops) {
   std::vector<dvec3> places;
+  places.reserve(stops.size());
   for (const PathStop& stop : stops) places.push_back(stop.u);
   return {times_of(stops), std::move(places), rests_of(stops)};
 }
@@ -38,6 +41,7 @@ SphereCurve place_of(const std::vector<PathStop>& stops) {
 template <class Get>
 MonotoneCubic curve_of(const std::vector<PathStop>& stops, const Get& get) {
   std::vector<double> values;
+  values.reserve(stops.size());
   for (std::size_t k = 0; k < stops.size(); ++k) values.push_back(get(k));
   return {times_of(stops), std::move(values), rests_of(stops)};
 }
@@ -101,6 +105,7 @@ double heading_of_tangent(const dvec3& u, const dvec3& tangent) {
 std::vector<double> headings_of(const std::vector<PathStop>& stops, const SphereCurve& place,
                                 const dvec3& reference) {
   std::vector<double> headings;
+  headings.reserve(stops.size());
   for (std::size_t k = 0; k < stops.size(); ++k) {
     const dvec3 tangent =
         stops[k].look ? tangent_of_heading(stops[k].u, stops[k].look->heading_deg) : place.direction(k);

@@ -18,9 +18,9 @@ Value value_of(const toml::node& node);
 
 Table table_of(const toml::table& table) {
   Table result;
-  for (const auto& [key, node] : table) result.entries.emplace_back(std::string(key.str()), value_of(node));
+  for (const auto& [key, node] : table) result.entries.push_back({std::string(key.str()), value_of(node)});
   std::stable_sort(result.entries.begin(), result.entries.end(),
-                   [](const auto& a, const auto& b) { return a.second.line < b.second.line; });
+                   [](const Entry& a, const Entry& b) { return a.value.line < b.value.line; });
   return result;
 }
 
@@ -63,8 +63,8 @@ Value value_of(const toml::node& node) {
 
 const Value* Table::find(const std::string& key) const {
   const auto found =
-      std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.first == key; });
-  return found == entries.end() ? nullptr : &found->second;
+      std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) { return entry.key == key; });
+  return found == entries.end() ? nullptr : &found->value;
 }
 
 Value parse_document(const std::string& text, const std::string& name) {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -17,9 +17,11 @@ struct Date {
 
 using Array = std::vector<Value>;
 
+struct Entry;
+
 /// Keys with their values, in the order of the file.
 struct Table {
-  std::vector<std::pair<std::string, Value>> entries;
+  std::vector<Entry> entries;
 
   /// Null when there is no such key.
   const Value* find(const std::string& key) const;
@@ -29,6 +31,11 @@ struct Table {
 struct Value {
   int line = 0;  ///< from 1
   std::variant<bool, std::int64_t, double, std::string, Date, Array, Table> is;
+};
+
+struct Entry {
+  std::string key;
+  Value value;
 };
 
 /// The longest TOML file that is read.

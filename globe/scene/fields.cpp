@@ -144,7 +144,7 @@ std::optional<std::string> Fields::text(const std::string& key) {
 }
 
 std::optional<std::string> Fields::choice(const std::string& key, const std::vector<std::string>& words) {
-  const std::optional<std::string> word = text(key);
+  std::optional<std::string> word = text(key);
   if (!word || std::find(words.begin(), words.end(), *word) != words.end()) return word;
   const auto nearest = nearest_word(*word, words);
   refuse(key, '"' + *word + "\" is not " + listed(words, "or"),
@@ -244,7 +244,7 @@ std::vector<Fields> Fields::tables(const std::string& key) {
 
 std::vector<std::string> Fields::keys() const {
   std::vector<std::string> names;
-  for (const auto& entry : table_->entries) names.push_back(entry.first);
+  for (const Entry& entry : table_->entries) names.push_back(entry.key);
   return names;
 }
 

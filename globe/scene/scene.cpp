@@ -30,7 +30,7 @@ bool is_procedural(const std::string& name) {
 }
 
 std::string read_planet(Fields& fields) {
-  const std::string name = fields.text("planet").value_or("procedural");
+  std::string name = fields.text("planet").value_or("procedural");
   if (is_procedural(name)) return name;
   if (name.starts_with("procedural"))
     fields.refuse("planet", "the seed of \"" + name + "\" is not a whole number below 2^64",
