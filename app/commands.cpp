@@ -28,6 +28,7 @@ void add_commands(CLI::App& program, int& exit_status) {
   add_profile(program);
   add_sight(program, exit_status);
   add_summary(program);
+  add_tune(program);
 }
 
 std::vector<std::string> arguments(int argc, const char* const* argv) {

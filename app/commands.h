@@ -34,5 +34,6 @@ void add_pick(CLI::App& program, int& exit_status);
 void add_profile(CLI::App& program);
 void add_shot(CLI::App& program);
 void add_summary(CLI::App& program);
+void add_tune(CLI::App& program);
 
 }  // namespace app

@@ -32,7 +32,8 @@ std::vector<Family> families() {
            .studies = shading_studies,
            .approximations = {"shading.tone", "shading.texels", "shading.normals"},
            .draws = true},
-          {.name = "samples", .studies = sample_studies, .knobs = {"--samples"}, .draws = true}};
+          {.name = "samples", .studies = sample_studies, .knobs = {"--samples"}, .draws = true},
+          {.name = "domes", .studies = dome_studies, .knobs = {"--faces"}, .draws = true}};
 }
 
 }  // namespace app::accuracy

@@ -90,6 +90,7 @@ std::vector<Study> position_studies(const Scope& scope);
 std::vector<Study> detail_studies(const Scope& scope);
 std::vector<Study> morph_studies(const Scope& scope);
 std::vector<Study> depth_studies(const Scope& scope);
+std::vector<Study> dome_studies(const Scope& scope);
 std::vector<Study> sample_studies(const Scope& scope);
 std::vector<Study> window_studies(const Scope& scope);
 std::vector<Study> sky_studies(const Scope& scope);

@@ -14,6 +14,7 @@
 #include "converters/convert.h"
 #include "globe/clipmap/ground_below.h"
 #include "globe/planet/sight.h"
+#include "globe/scene/flight_path.h"
 #include "tests/hard/directions.h"
 #include "tests/hard/table.h"
 #include "tests/node_planet.h"

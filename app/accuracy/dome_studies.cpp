@@ -1,0 +1,101 @@
+#include <epoxy/gl.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "app/accuracy/drawing_quality.h"
+#include "app/accuracy/repeated_frame.h"
+#include "app/accuracy/study.h"
+#include "globe/render/wide_view.h"
+
+namespace app::accuracy {
+namespace {
+
+namespace render = globe::render;
+
+constexpr int kSide = 512;  ///< of the dome's picture, pixels
+constexpr int kFiner = 4;   ///< pixels of the reference in one of the picture, across and down
+
+/// A dome drawn from one place again and again.
+class Dome {
+ public:
+  Dome(std::shared_ptr<globe::gl::Context> context,
+       const std::shared_ptr<const globe::planet::Surface>& surface, int side, int face_side,
+       render::Camera camera)
+      : context_(std::move(context)),
+        renderer_(surface, {}),
+        view_({render::Projection::kFisheye, side, side, 180.0, 1, face_side}),
+        target_(side, side),
+        camera_(std::move(camera)),
+        sun_(sun_over(*surface, camera_)) {
+    view_.warm_up(renderer_);
+    draw_ms();
+  }
+
+  double draw_ms() {
+    glFinish();
+    const auto begin = std::chrono::steady_clock::now();
+    view_.draw(renderer_, camera_, sun_, true, target_);
+    glFinish();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  }
+  std::vector<std::uint8_t> picture() const { return target_.read_rgba8(); }
+  int face_side() const { return view_.face_side(); }
+
+ private:
+  std::shared_ptr<globe::gl::Context> context_;  ///< outlives what is made in it
+  render::GlobeRenderer renderer_;
+  render::WideView view_;
+  globe::gl::Framebuffer target_;
+  render::Camera camera_;
+  glm::dvec3 sun_;
+};
+
+/// Each pixel the mean of those of a picture kFiner times as large.
+std::vector<double> means(const std::vector<std::uint8_t>& fine) {
+  std::vector<double> result(std::size_t{kSide} * kSide * 4);
+  constexpr int kLarge = kSide * kFiner;
+  for (int y = 0; y < kLarge; ++y)
+    for (int x = 0; x < kLarge; ++x)
+      for (int c = 0; c < 4; ++c)
+        result[static_cast<std::size_t>((y / kFiner * kSide + x / kFiner) * 4 + c)] +=
+            fine[static_cast<std::size_t>((y * kLarge + x) * 4 + c)] / double(kFiner * kFiner);
+  return result;
+}
+
+}  // namespace
+
+std::vector<Study> dome_studies(const Scope&) {
+  const auto context = std::make_shared<globe::gl::Context>();
+  const std::shared_ptr<const globe::planet::Surface> surface = globe::planet::Surface::builtin(1);
+  const render::Camera camera = judged_views(*surface, {})[3].camera;
+  const std::vector<double> truth = means(Dome(context, surface, kSide * kFiner, 0, camera).picture());
+  Study study{"domes.faces",
+              "Texels of the cube that a dome's picture is made of",
+              "--faces",
+              "the mean of 16 pixels of a picture four times as large",
+              "the pixels of a fisheye of 180 degrees, 512x512, from 2 km toward the mountains",
+              "steps of 255",
+              "ms a frame",
+              {}};
+  const int usual = Dome(context, surface, kSide, 0, camera).face_side();
+  for (const int side : {usual / 2, usual * 3 / 4, usual, usual * 2}) {
+    const auto dome = std::make_shared<Dome>(context, surface, kSide, side, camera);
+    const std::vector<std::uint8_t> drawn = dome->picture();
+    ErrorSum sum;
+    for (std::size_t k = 0; k < drawn.size(); ++k) {
+      if (k % 4 == 3) continue;  // opaque
+      sum.add(drawn[k] - truth[k], [&] {
+        const auto pixel = static_cast<int>(k / 4);
+        return "pixel " + std::to_string(pixel % kSide) + "," + std::to_string(pixel / kSide);
+      });
+    }
+    study.settings.push_back(
+        {std::to_string(side) + " a side", sum.figure(), [=] { return dome->draw_ms(); }, side == usual});
+  }
+  return {std::move(study)};
+}
+
+}  // namespace app::accuracy
