@@ -10,6 +10,7 @@ namespace {
 /// the fragment shader runs.
 std::vector<double> planes_from(double distance_m) {
   std::vector<double> planes;
+  planes.reserve(8);
   for (int k = 0; k < 8; ++k) planes.push_back(distance_m * (1.0 + 0.01 * k));
   return planes;
 }
