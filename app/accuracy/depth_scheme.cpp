@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 
 namespace app::accuracy {
@@ -53,18 +54,33 @@ double stored_depth(DepthScheme scheme, double distance_m) {
 
 double smallest_separation(DepthScheme scheme, double distance_m) {
   const double here = stored_depth(scheme, distance_m);
-  const auto is_behind = [&](double step) { return stored_depth(scheme, distance_m + step) > here; };
-  double too_small = 0.0, enough = distance_m * 0x1p-30;
-  while (!is_behind(enough)) {
-    too_small = enough;
-    enough *= 2.0;
-    if (distance_m + enough > kFar) return kFar - distance_m;
+  // From the distance outward to where another depth begins, `way` 1 behind it and -1 before it.
+  const auto reach = [&](double way, double farthest) {
+    const auto is_other = [&](double step) { return stored_depth(scheme, distance_m + way * step) != here; };
+    double same = 0.0, other = distance_m * 0x1p-30;
+    while (!is_other(other)) {
+      same = other;
+      other *= 2.0;
+      if (other >= farthest) return farthest;
+    }
+    for (int k = 0; k < 40; ++k) {
+      const double middle = 0.5 * (same + other);
+      (is_other(middle) ? other : same) = middle;
+    }
+    return other;
+  };
+  return reach(-1.0, distance_m - kNear) + reach(1.0, kFar - distance_m);
+}
+
+std::vector<double> depth_sample(double distance_m) {
+  constexpr int kCount = 2000;
+  std::vector<double> sample;
+  sample.reserve(kCount);
+  for (int k = 0; k < kCount; ++k) {
+    const double turns = k * (std::numbers::phi - 1.0);
+    sample.push_back(distance_m * (1.0 + 0.1 * (turns - std::floor(turns))));
   }
-  for (int k = 0; k < 40; ++k) {
-    const double middle = 0.5 * (too_small + enough);
-    (is_behind(middle) ? enough : too_small) = middle;
-  }
-  return enough;
+  return sample;
 }
 
 DepthPlanes::DepthPlanes(std::shared_ptr<globe::gl::Context> context, DepthScheme scheme, int width,

@@ -34,9 +34,13 @@ constexpr double kFar = 1e9;    ///< metres
 /// rounded as IEEE 754 says.
 double stored_depth(DepthScheme scheme, double distance_m);
 
-/// The smallest step behind a distance that is told apart from it, metres; all the way to kFar when nothing
-/// is.
+/// How far apart two distances have to be, this one at or between them, to be told apart for sure, metres:
+/// the width of what is stored as one depth.
 double smallest_separation(DepthScheme scheme, double distance_m);
+
+/// Distances to try from one to a tenth more, in steps of the golden ratio: none of them lies where a float
+/// does for being a round number.
+std::vector<double> depth_sample(double distance_m);
 
 /// Planes across the view, drawn with one scheme.
 class DepthPlanes {

@@ -21,20 +21,20 @@ std::shared_ptr<globe::gl::Context> lent(globe::gl::Context& context) {
   return {&context, [](globe::gl::Context*) {}};
 }
 
-TEST_F(GlTest, PlanesAsFarApartAsReportedAreToldApartAndAThirdOfItNotAlways) {
+TEST_F(GlTest, PlanesAsFarApartAsReportedAndRoundedAgainAreToldApartAndAThirdOfItNotAlways) {
   for (const DepthScheme scheme : accuracy::kDepthSchemes) {
     const accuracy::DepthPlanes planes(lent(context()), scheme, 16, 16);
     for (const double distance : {1.0, 100.0, 1e4, 1e6}) {
       double widest = 0;
-      for (int k = 0; k < 200; ++k)
-        widest = std::max(widest, accuracy::smallest_separation(scheme, distance * (1.0 + 5e-4 * k)));
-      if (distance + 2.0 * widest > accuracy::kFar) continue;
+      for (const double at : accuracy::depth_sample(distance))
+        widest = std::max(widest, accuracy::smallest_separation(scheme, at));
+      if (distance + 3.0 * widest > accuracy::kFar) continue;
       int confused = 0;
       for (int k = 0; k < 200; ++k) {
         const double at = distance * (1.0 + 5e-4 * k);
-        // Drivers round depth once more than the formats do: twice the step is always seen.
-        EXPECT_EQ(planes.shown({at, at + 2.0 * widest}), 0) << accuracy::name_of(scheme) << " at " << at;
-        EXPECT_EQ(planes.shown({at + 2.0 * widest, at}), 1) << accuracy::name_of(scheme) << " at " << at;
+        // llvmpipe rounds depth in between, too: of planes twice the step apart 5 in 1000 are confused.
+        EXPECT_EQ(planes.shown({at, at + 3.0 * widest}), 0) << accuracy::name_of(scheme) << " at " << at;
+        EXPECT_EQ(planes.shown({at + 3.0 * widest, at}), 1) << accuracy::name_of(scheme) << " at " << at;
         confused += planes.shown({at + widest / 3.0, at}) == 0 ? 1 : 0;
       }
       EXPECT_GT(confused, 0) << accuracy::name_of(scheme) << " at " << distance;
