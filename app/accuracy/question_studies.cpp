@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <random>
+#include <utility>
 
 #include "app/accuracy/samples.h"
 #include "globe/htm/cone.h"
@@ -54,6 +54,25 @@ std::string text_of(const PlacePair& pair) {
   return text;
 }
 
+/// A setting: what `ask` answers of each subject against the truth, and how long it takes.
+template <typename Subject, typename Ask, typename Words>
+void add(Study& study, std::string name, bool is_default,
+         const std::shared_ptr<std::vector<Subject>>& subjects, const std::vector<double>& truth,
+         const Ask& ask, const Words& words) {
+  ErrorSum sum;
+  for (std::size_t k = 0; k < truth.size(); ++k)
+    sum.add(ask((*subjects)[k]) - truth[k], [&] { return words(k); });
+  const auto cost = timed(
+      static_cast<double>(subjects->size()),
+      [subjects, ask] {
+        double all = 0;
+        for (const Subject& subject : *subjects) all += ask(subject);
+        keep(all);
+      },
+      1e6);
+  study.settings.push_back({std::move(name), sum.figure(), cost, is_default});
+}
+
 Study summaries(const Ground& ground, const Scope& scope, int finest) {
   std::vector<dvec3> centres = cone_centres(scope);
   const auto regions = std::make_shared<std::vector<globe::htm::Cone>>();
@@ -74,19 +93,10 @@ Study summaries(const Ground& ground, const Scope& scope, int finest) {
       "ms a region",
       {}};
   for (int level = finest - 6; level < finest; ++level) {
-    ErrorSum sum;
-    for (std::size_t k = 0; k < truth.size(); ++k)
-      sum.add(highest((*regions)[k], level) - truth[k], [&] { return "cone " + std::to_string(k); });
-    const auto cost = timed(
-        static_cast<double>(regions->size()),
-        [=] {
-          double all = 0;
-          for (const auto& cone : *regions) all += highest(cone, level);
-          keep(all);
-        },
-        1e6);
-    study.settings.push_back(
-        {"level " + std::to_string(level), sum.figure(), cost, level == ground->data_level()});
+    add(
+        study, "level " + std::to_string(level), level == ground->data_level(), regions, truth,
+        [=](const globe::htm::Cone& cone) { return highest(cone, level); },
+        [](std::size_t k) { return "cone " + std::to_string(k); });
   }
   return study;
 }
@@ -112,25 +122,16 @@ Study sights(const Ground& ground, const std::vector<PlacePair>& pairs, int fine
       "ms a look",
       {}};
   for (int level = finest - 5; level < finest; ++level) {
-    ErrorSum sum;
-    for (std::size_t k = 0; k < truth.size(); ++k)
-      sum.add(clearance((*eyes)[k], level) - truth[k], [&] { return text_of((*eyes)[k]); });
-    const auto cost = timed(
-        static_cast<double>(eyes->size()),
-        [=] {
-          double all = 0;
-          for (const PlacePair& pair : *eyes) all += clearance(pair, level);
-          keep(all);
-        },
-        1e6);
-    study.settings.push_back(
-        {"level " + std::to_string(level), sum.figure(), cost, level == ground->data_level()});
+    add(
+        study, "level " + std::to_string(level), level == ground->data_level(), eyes, truth,
+        [=](const PlacePair& pair) { return clearance(pair, level); },
+        [&](std::size_t k) { return text_of((*eyes)[k]); });
   }
   return study;
 }
 
 Study profiles(const Ground& ground, const std::vector<PlacePair>& pairs, int finest) {
-  const auto ways = std::make_shared<const std::vector<PlacePair>>(pairs);
+  const auto ways = std::make_shared<std::vector<PlacePair>>(pairs);
   const auto highest = [ground, finest](const PlacePair& pair, std::size_t count) {
     double top = -1e9;
     for (const planet::ProfileSample& sample :
@@ -152,18 +153,10 @@ Study profiles(const Ground& ground, const std::vector<PlacePair>& pairs, int fi
               {}};
   const std::size_t own = planet::profile_count(*ground, ways->front().a, ways->front().b, finest);
   for (const std::size_t count : {std::size_t{16}, std::size_t{64}, std::size_t{256}, own}) {
-    ErrorSum sum;
-    for (std::size_t k = 0; k < truth.size(); ++k)
-      sum.add(highest((*ways)[k], count) - truth[k], [&] { return text_of((*ways)[k]); });
-    const auto cost = timed(
-        static_cast<double>(ways->size()),
-        [=] {
-          double all = 0;
-          for (const PlacePair& pair : *ways) all += highest(pair, count);
-          keep(all);
-        },
-        1e6);
-    study.settings.push_back({std::to_string(count) + " samples", sum.figure(), cost, count == own});
+    add(
+        study, std::to_string(count) + " samples", count == own, ways, truth,
+        [=](const PlacePair& pair) { return highest(pair, count); },
+        [&](std::size_t k) { return text_of((*ways)[k]); });
   }
   return study;
 }
