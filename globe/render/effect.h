@@ -47,6 +47,7 @@ struct EffectView {
   glm::dvec3 sun;         ///< unit vector toward it, ECEF
   double height_m;        ///< of the eye above the ellipsoid
   double above_ground_m;  ///< of the eye, at least what a camera counts as
+  int active = 0;         ///< effects of the view, as EffectShaders has it; when passes are drawn
 };
 
 /// Whether an effect has anything to do in a view, and why: for people, a few words.
