@@ -15,7 +15,8 @@ namespace globe::effects {
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;
-constexpr double kLit = -1.0 * kDegree, kFull = -9.0 * kDegree;  ///< heights of the sun between which they come on
+constexpr double kLit = -1.0 * kDegree,
+                 kFull = -9.0 * kDegree;  ///< heights of the sun between which they come on
 
 struct NightLightsParameters {
   std::filesystem::path image;
@@ -32,13 +33,16 @@ NightLightsParameters read_night_lights(scene::Fields& fields) {
 /// Mirrors `NightLights` in shaders/effects/night_lights.glsl (std140).
 struct NightLightsBlock {
   glm::vec4 lamps;
+  glm::vec4 view;
 };
 
 /// Lamps of towns, where the sun is down.
 class NightLights final : public render::Effect {
  public:
   NightLights(const NightLightsParameters& parameters, const planet::Surface&)
-      : parameters_(parameters), image_(read_lat_long_image(parameters.image)), block_(sizeof(NightLightsBlock)) {}
+      : parameters_(parameters),
+        image_(read_lat_long_image(parameters.image)),
+        block_(sizeof(NightLightsBlock)) {}
 
   render::EffectShader shader() const override {
     render::EffectShader shader;
@@ -54,16 +58,19 @@ class NightLights final : public render::Effect {
     // The darkest ground that can be seen lies away from the sun, as far as the horizon.
     const double radius = view.surface.ellipsoid().mean_radius();
     const double to_horizon = std::acos(std::min(radius / (radius + std::max(view.height_m, 0.0)), 1.0));
-    const double sun = std::asin(std::clamp(glm::dot(glm::normalize(view.camera.position), view.sun), -1.0, 1.0));
+    const double sun =
+        std::asin(std::clamp(glm::dot(glm::normalize(view.camera.position), view.sun), -1.0, 1.0));
     constexpr double kBeyond = 3.0 * kDegree;  // mountains behind the horizon
     if (sun - to_horizon - kBeyond > kLit) return {false, "all ground in view is in the light"};
     return {true, "some ground in view may be in the dark"};
   }
 
-  void prepare(const render::EffectView&, const render::Bindings& bindings) override {
+  void prepare(const render::EffectView& view, const render::Bindings& bindings) override {
     if (lamps_.id() == 0) lamps_ = planet_texture(image_, GL_SRGB8_ALPHA8);
-    const NightLightsBlock block{glm::vec4(glm::dvec4(parameters_.intensity, parameters_.threshold, std::sin(kLit),
-                                                      std::sin(kFull)))};
+    const double pixel = 2.0 * view.camera.tan_y() / view.target.height();
+    const NightLightsBlock block{
+        glm::vec4(glm::dvec4(parameters_.intensity, parameters_.threshold, std::sin(kLit), std::sin(kFull))),
+        glm::vec4(glm::dvec4(pixel, 0.0, 0.0, 0.0))};
     block_.upload(0, &block, sizeof(block));
     block_.bind_base(GL_UNIFORM_BUFFER, bindings.block);
     lamps_.bind(bindings.unit);

@@ -130,8 +130,7 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
   const gl::Framebuffer& picture = light_ ? light_->in_place_of(target) : target;
   const double height_m = geo::geodetic_from_ecef(surface_->ellipsoid(), camera.position).h_m;
   const EffectHost host = effect_host();
-  EffectView effect_view{host,    camera,   view, *surface_, list,
-                         picture, instant_, sun_, height_m,  above_m_};
+  EffectView effect_view{host, camera, view, *surface_, list, picture, instant_, sun_, height_m, above_m_};
   effect_view.active = active_ = prepare_effects(effect_view);
   if (sky_) sky_->prepare();
 
