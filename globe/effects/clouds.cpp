@@ -57,8 +57,6 @@ CloudsParameters read_clouds(scene::Fields& fields) {
           fields.integer("seed", 0, std::numeric_limits<int>::max()).value_or(1)};
 }
 
-constexpr std::size_t kLooks = 4;  ///< at the detail, at most
-
 /// Mirrors `Detail` in shaders/effects/clouds.glsl.
 struct DetailBlock {
   std::array<glm::vec4, 3> chart;
@@ -74,7 +72,7 @@ struct CloudsBlock {
   glm::vec4 sun;
   glm::vec4 round_sun;
   glm::vec4 mist;
-  std::array<DetailBlock, kLooks> detail;
+  std::array<DetailBlock, 2> detail;
 };
 
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
@@ -103,32 +101,23 @@ glm::dvec3 rounding_of(const geo::Ellipsoid& ellipsoid) {
   return {radius / ellipsoid.a, radius / ellipsoid.a, radius / ellipsoid.b()};
 }
 
-/// A plane that touches the planet where an axis leaves it, with the detail laid on it, and how much of the
-/// detail is that plane's.
+/// A plane that touches the planet where an axis leaves it, with the detail laid on it.
 struct Chart {
   glm::dmat3 axes;  ///< normal, columns, rows
-  double share;
+  double share;     ///< of the detail: none where another plane takes over
 };
 
-/// The charts for an eye above a direction of the cover's frame: one, or two by the border of their realms,
-/// where one gives way to the other.
-std::vector<Chart> charts_at(const glm::dvec3& up) {
-  constexpr double kBorder = 0.12;  // in which they mix, of the larger component
-  std::vector<Chart> charts;
+/// The chart for an eye above a direction of the cover's frame.
+Chart chart_at(const glm::dvec3& up) {
+  constexpr double kBorder =
+      0.02;  // of the components' ratio, in which one fades out before the next comes in
   const glm::dvec3 size = glm::abs(up);
-  const double largest = std::max({size.x, size.y, size.z});
-  double sum = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double share = std::clamp((size[axis] / largest - (1.0 - kBorder)) / kBorder, 0.0, 1.0);
-    if (share == 0.0 || charts.size() == kLooks / 2) continue;
-    glm::dmat3 axes(0.0);
-    axes[0][axis] = up[axis] < 0.0 ? -1.0 : 1.0;
-    axes[1][(axis + 1) % 3] = axes[2][(axis + 2) % 3] = 1.0;
-    charts.push_back({axes, share});
-    sum += share;
-  }
-  for (Chart& chart : charts) chart.share /= sum;
-  return charts;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const double next = std::max(size[(axis + 1) % 3], size[(axis + 2) % 3]) / size[axis];
+  Chart chart{glm::dmat3(0.0), std::clamp((1.0 - next) / kBorder, 0.0, 1.0)};
+  chart.axes[0][axis] = up[axis] < 0.0 ? -1.0 : 1.0;
+  chart.axes[1][(axis + 1) % 3] = chart.axes[2][(axis + 2) % 3] = 1.0;
+  return chart;
 }
 
 Stand stand_of(const render::EffectView& view, double altitude_m) {
@@ -209,31 +198,31 @@ class Clouds final : public render::Effect {
     block.layer = glm::vec4(glm::dvec4(stand.layer_m * 1e-3, stand.ground_m * 1e-3, stand.over_layer_m(),
                                        0.5 * parameters_.thickness_m));
     block.cover = glm::vec4(glm::dvec4(begins, gain, kDepth, pixel));
-    block.turned = glm::vec4(glm::dvec4(c, s, texture_.width(), given ? 0.0 : 1.0));
+    // One level for all of a view, by its nearest cloud: drivers in software look up many times as fast then.
+    const double footprint_m = std::abs(stand.over_layer_m()) * pixel;
+    const double texel_m = 2.0 * stand.ground_m / texture_.width();
+    const double level =
+        std::clamp(std::floor(std::log2(std::max(footprint_m / texel_m, 1.0))), 0.0, texture_.levels() - 1.0);
+    block.turned = glm::vec4(glm::dvec4(c, s, texture_.width() / std::exp2(level), level));
 
-    const std::vector<Chart> charts = charts_at(turn * glm::normalize(view.camera.position));
-    const double nearest_m = std::max(std::abs(stand.over_layer_m()), 1.0);
-    const bool fine = nearest_m * pixel < 300.0;
-    std::size_t looks = 0;
-    for (const bool finer : {false, true}) {
-      if (finer && !fine) continue;
-      const double tiles = stand.ground_m / (finer ? kFineTile_m : kCoarseTile_m);
-      const double share = finer ? (given ? 0.06 : 0.11) : (given ? 0.2 : 0.34);
-      for (const Chart& chart : charts) {
-        // The square's side along the axes, the plane's normal as it is.
-        const glm::dmat3 axes = glm::transpose(chart.axes) * turn;
-        DetailBlock& detail = block.detail[looks++];
-        const glm::dmat3 rows = glm::transpose(axes);
-        const glm::dvec3 sun = axes * view.sun;
-        for (std::size_t k = 0; k < 3; ++k)
-          detail.chart[k] = glm::vec4(glm::vec3(rows[static_cast<int>(k)] * (k == 0 ? 1.0 : tiles)), 0.0f);
-        detail.sun = glm::vec4(glm::dvec4(sun.x, sun.y * tiles, sun.z * tiles, share * chart.share));
-      }
+    const glm::dvec3 up = turn * glm::normalize(view.camera.position);
+    const Chart chart = chart_at(up);
+    const glm::dmat3 axes = glm::transpose(chart.axes) * turn, rows = glm::transpose(axes);
+    const glm::dvec3 sun = axes * view.sun;
+    for (std::size_t k = 0; k < block.detail.size(); ++k) {
+      const bool fine = k == 1;
+      const double tiles = stand.ground_m / (fine ? kFineTile_m : kCoarseTile_m);
+      const double share = chart.share * (fine ? (given ? 0.06 : 0.11) : (given ? 0.2 : 0.34));
+      DetailBlock& detail = block.detail[k];
+      for (int row = 0; row < 3; ++row)
+        detail.chart[static_cast<std::size_t>(row)] =
+            glm::vec4(glm::vec3(rows[row] * (row == 0 ? 1.0 : tiles)), 0.0f);
+      detail.sun = glm::vec4(glm::dvec4(sun.x, sun.y * tiles, sun.z * tiles, share));
     }
-    block.sun = glm::vec4(glm::dvec4(turn * view.sun, static_cast<double>(charts.size())));
-    const glm::dvec3 rounding = rounding_of(view.surface.ellipsoid());
-    block.round_sun = glm::vec4(glm::dvec4(glm::normalize(view.sun * rounding), static_cast<double>(looks)));
-    block.mist = mist_at(view, stand, turn * glm::normalize(view.camera.position), begins, gain);
+    block.sun = glm::vec4(glm::dvec4(turn * view.sun, 0.0));
+    block.round_sun =
+        glm::vec4(glm::dvec4(glm::normalize(view.sun * rounding_of(view.surface.ellipsoid())), 0.0));
+    block.mist = mist_at(view, stand, up, begins, gain);
     block_.upload(0, &block, sizeof(block));
     block_.bind_base(GL_UNIFORM_BUFFER, bindings.block);
     texture_.bind(bindings.unit);

@@ -12,11 +12,11 @@ layout(std140, binding = CLOUDS_BLOCK) uniform Clouds {
   vec4 color;   // albedo; w: opacity, the share of light that the thickest cloud takes
   vec4 layer;   // radius of the layer in round space, of the planet there (km), height of the eye over the layer, half its thickness (m)
   vec4 cover;   // potential at which clouds begin, gain from there to the thickest, optical depth of the thickest, size of a pixel (radians)
-  vec4 turned;  // cosine and sine of the way the layer has gone around the axis, texels of a face; w: 1 for clouds that are made up
-  vec4 sun;     // toward it in the cover's frame; w: looks at the broader detail
-  vec4 round_sun;  // toward it in round space; w: looks at detail
+  vec4 turned;  // cosine and sine of the way the layer has gone around the axis, texels of a face at the view's mipmap level, and that level
+  vec4 sun;        // toward it in the cover's frame
+  vec4 round_sun;  // toward it in round space
   vec4 mist;    // its light; w: extinction by metre, 0 for an eye outside the layer
-  Detail detail[4];
+  Detail detail[2];  // broad, fine
 } clouds;
 layout(binding = CLOUDS_UNIT) uniform sampler2DArray cloud_cover;    // six faces of a cube: potential, and its gradient over the sphere
 layout(binding = CLOUDS_UNIT + 1) uniform sampler2D cloud_detail;    // repeats: potential, and its gradient over the square
@@ -30,7 +30,7 @@ struct CloudHere {
 };
 
 // What the weather makes of a direction of any length in the world's axes: potential, and its rise toward the sun by a radian.
-vec2 broad_cloud(vec3 direction, float footprint_km) {
+vec2 broad_cloud(vec3 direction) {
   vec3 d = vec3(clouds.turned.x * direction.x + clouds.turned.y * direction.y, clouds.turned.x * direction.y - clouds.turned.y * direction.x,
                 direction.z);
   vec3 size = abs(d);
@@ -38,24 +38,20 @@ vec2 broad_cloud(vec3 direction, float footprint_km) {
   bool y = size.y >= size.z;
   vec3 turned = x ? d : y ? d.yzx : d.zxy;
   float face = (x ? 0.0 : y ? 2.0 : 4.0) + (turned.x < 0.0 ? 1.0 : 0.0);
-  float level = clamp(floor(log2(footprint_km * clouds.turned.z / clouds.layer.y)), 0.0, 8.0);
-  float texels = clouds.turned.z * exp2(-level);
   // Texel centres of the border lie on the cube's edges.
-  vec2 at = ((turned.yz / abs(turned.x) * 0.5 + 0.5) * (texels - 1.0) + 0.5) / texels;
-  vec4 cover = textureLod(cloud_cover, vec3(at, face), level);
+  vec2 at = ((turned.yz / abs(turned.x) * 0.5 + 0.5) * (clouds.turned.z - 1.0) + 0.5) / clouds.turned.z;
+  vec4 cover = textureLod(cloud_cover, vec3(at, face), clouds.turned.w);
   return vec2(cover.r, dot(cover.gba * 2.0 - 1.0, clouds.sun.xyz) * kGradientRange);
 }
 
 // The same of a finer fractal that breaks edges up near by.
-vec2 fine_cloud(int look, vec3 direction) {
-  vec3 d = vec3(dot(direction, clouds.detail[look].chart[0].xyz), dot(direction, clouds.detail[look].chart[1].xyz),
-                dot(direction, clouds.detail[look].chart[2].xyz));
+vec2 fine_cloud(Detail detail, vec3 direction) {
+  vec3 d = vec3(dot(direction, detail.chart[0].xyz), dot(direction, detail.chart[1].xyz), dot(direction, detail.chart[2].xyz));
   float inverse = 1.0 / max(d.x, 1e-3);
   vec2 uv = d.yz * inverse;
-  vec4 sun = clouds.detail[look].sun;
-  vec4 here = texture(cloud_detail, uv);
-  vec2 change = (sun.yz - uv * sun.x) * (inverse * length(direction));
-  return sun.w * vec2(here.r * 2.0 - 1.0, kDetailRange * dot(here.gb * 2.0 - 1.0, change));
+  vec3 here = texture(cloud_detail, uv).rgb * 2.0 - 1.0;
+  vec2 change = (detail.sun.yz - uv * detail.sun.x) * (inverse * length(direction));
+  return detail.sun.w * vec2(here.r, kDetailRange * dot(here.gb, change));
 }
 
 float thickness_of(float potential, float near) {
@@ -71,12 +67,10 @@ float depth_of(float thickness) {
 float near_by(float footprint_km) { return 1.0 - smoothstep(0.5, 2.5, footprint_km); }
 
 CloudHere cloud_at(vec3 direction, float footprint_km) {
-  vec2 broad = broad_cloud(direction, footprint_km);
+  vec2 broad = broad_cloud(direction);
   float near = near_by(footprint_km);
   float nearer = 1.0 - smoothstep(0.05, 0.3, footprint_km);
-  vec2 fine = near * fine_cloud(0, direction);
-  for (int look = 1; look < int(clouds.round_sun.w); ++look)
-    fine += (look < int(clouds.sun.w) ? near : nearer) * fine_cloud(look, direction);
+  vec2 fine = near * fine_cloud(clouds.detail[0], direction) + nearer * fine_cloud(clouds.detail[1], direction);
   float thickness = thickness_of(broad.x + fine.x, near);
   // The shape that a satellite sees is broad, that of a heap steep: each by its own height in kilometres.
   float steepness = (9.0 * broad.y + 0.42 * fine.y) * clouds.cover.y / clouds.layer.y;
@@ -94,8 +88,7 @@ void clouds_dim(inout vec3 sunlight, inout vec3 skylight, Place place) {
   vec3 direction = (place.round * radius + clouds.round_sun.xyz * way) * view.rounding.xxy;
   float footprint = length(place.relative) * 1e-3 * clouds.cover.w;
   float near = near_by(footprint);
-  float potential = broad_cloud(direction, footprint).x + near * fine_cloud(0, direction).x;
-  for (int look = 1; look < int(clouds.sun.w); ++look) potential += near * fine_cloud(look, direction).x;
+  float potential = broad_cloud(direction).x + near * fine_cloud(clouds.detail[0], direction).x;  // enough for a shadow
   float passes = cloud_passes(depth_of(thickness_of(potential, near)));
   float dark = higher > 0.0 ? clouds.color.w * (1.0 - passes) : 0.0;
   sunlight *= 1.0 - dark;
