@@ -66,7 +66,7 @@ void run(ShotOptions options, const CLI::App& command) {
   const Sunlight sun = sun_for(view, *surface, sunny);
 
   const globe::gl::Context context(view.device);
-  render::GlobeRenderer renderer(surface, settings, effects_of(scene, *surface));
+  render::GlobeRenderer renderer(surface, settings, effects_of(scene, *surface, optics));
   Lens lens(optics, size.width, size.height, view.samples, settings.background);
   const globe::gl::Framebuffer& target = lens.target();
 

@@ -48,6 +48,9 @@ struct ViewOptions : CameraOptions {
   int memory_mb = 640;
 };
 
+/// What frames are drawn with, whatever becomes of them.
+void add_drawing_options(CLI::App& command, ViewOptions& options);
+/// The same and what `shot` and `fly` need for files and looks.
 void add_view_options(CLI::App& command, ViewOptions& options);
 
 /// Opens the planet as it is to be drawn, with --memory for its data where there is such an option. Throws

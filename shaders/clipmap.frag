@@ -1,5 +1,5 @@
 #include "lib/lit_ground.glsl"
-#include "lib/tone.glsl"
+#include "lib/shown_light.glsl"
 #ifdef EFFECTS
 #include "effects.glsl"  // what the effects at work add, put together by render::EffectShaders
 #endif

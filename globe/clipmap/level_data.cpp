@@ -32,8 +32,9 @@ std::vector<GroundPart> parts_within(const NodeRect& rect, const std::vector<Gro
   return kept;
 }
 
-GroundPart make_ground(const Surface& surface, int level, int d, const NodeRect& rect) {
-  auto nodes = std::make_shared<ShadingNodes>(make_shading_nodes(surface, level, d, rect));
+GroundPart make_ground(const Surface& surface, int level, int d, const NodeRect& rect,
+                       const planet::Coloring* coloring) {
+  auto nodes = std::make_shared<ShadingNodes>(make_shading_nodes(surface, level, d, rect, coloring));
   return {rect, rect, std::move(nodes)};
 }
 
@@ -174,6 +175,8 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
   const int up = 1 << settings.shading_levels_at(level);
   const int shading_n = planet::nodes_per_side(shading_level);
   data->anchor = level_anchor(settings, surface, region);
+  const LevelData* painted =
+      before != nullptr && before->lighting.coloring == lighting.coloring ? before : nullptr;
   const bool same_anchor = before != nullptr && before->anchor == data->anchor;
   data->vertices = region.nodes;
   for (int d = 0; d < kDiamonds; ++d) {
@@ -185,11 +188,11 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
     // One guard node all round: bilinear look-ups at the border of the region read it, with weight zero.
     data->shading[k] = {std::max(rect.i0 * up - 1, 0), std::min(rect.i1 * up + 1, shading_n),
                         std::max(rect.j0 * up - 1, 0), std::min(rect.j1 * up + 1, shading_n)};
-    if (before != nullptr) data->ground[k] = parts_within(data->shading[k], before->ground[k]);
+    if (painted != nullptr) data->ground[k] = parts_within(data->shading[k], painted->ground[k]);
     const std::size_t kept = data->ground[k].size();
     for (const NodeRect& part :
-         difference(data->shading[k], before != nullptr ? before->shading[k] : NodeRect{})) {
-      data->ground[k].push_back(make_ground(surface, shading_level, d, part));
+         difference(data->shading[k], painted != nullptr ? painted->shading[k] : NodeRect{})) {
+      data->ground[k].push_back(make_ground(surface, shading_level, d, part, lighting.coloring.get()));
     }
     const bool same_light = before != nullptr && before->lighting == lighting;
     for (std::size_t p = same_light ? kept : 0; p < data->ground[k].size(); ++p)

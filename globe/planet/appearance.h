@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -27,6 +28,9 @@ struct Ground {
 /// Albedo of the ground, linear light, [0, 1] a channel: the map's colour with the detail it is too coarse to
 /// hold, or height-and-slope colours (Christopoulos 5.4.1) where there is no map.
 glm::vec3 albedo(const Ground& ground);
+
+/// A look of one's own: an albedo in place of the one that albedo() gives.
+using Coloring = std::function<glm::vec3(const Ground& ground, const glm::vec3& albedo)>;
 
 /// Slope of the drawn ground (the sea's surface where it lies above the ground) from a node's neighbours.
 struct GroundSlope {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "globe/base/srgb.h"
 #include "globe/planet/directions.h"
 #include "globe/planet/inset_stack.h"
-#include "globe/base/srgb.h"
 #include "globe/planet/measure.h"
 #include "globe/planet/synthesis.h"
 #include "globe/planet/tile_nodes.h"

@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "globe/gl/framebuffer.h"
+#include "globe/planet/appearance.h"
 #include "globe/planet/surface.h"
 #include "globe/render/air.h"
 #include "globe/render/camera.h"
@@ -105,6 +107,9 @@ class Effect {
   /// Whether there is anything of it to see in a view. Cheap, a function of the view alone.
   virtual Verdict judge(const EffectView& view) const = 0;
 
+  /// The look of the ground, where the effect gives it another; the same all the time.
+  virtual std::shared_ptr<const planet::Coloring> coloring() const { return nullptr; }
+
   /// Has the programs of its own passes compiled; once, before the first frame.
   virtual void compile(const EffectHost& /*host*/) {}
   /// Before anything of a view is drawn in which it is active: makes what is missing, brings it to the
@@ -115,6 +120,8 @@ class Effect {
   /// function is put back.
   virtual void draw(const EffectView& /*view*/) {}
 
+  /// Draw calls and full passes that draw() makes.
+  virtual int passes() const { return stage() == Stage::kNone ? 0 : 1; }
   /// Held at present.
   virtual std::size_t gpu_bytes() const { return 0; }
 };

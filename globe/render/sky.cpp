@@ -36,7 +36,7 @@ glm::vec4 cap_around(const glm::vec3& axis, float tangent) {
 
 Sky::Sky(bool air, const AirSteps& steps, const EffectShaders& effects)
     : texels_(steps.map),
-      has_parts_(effects.has_parts()),
+      has_effects_(effects.is_used()),
       array_(gl::VertexArray::create()),
       program_(program_of("sky.frag", steps.sky, effects)) {
   if (!air) return;
@@ -64,7 +64,7 @@ void Sky::draw(const ViewBlock& view, int active) const {
   if (map_program_) map_.color().bind(4);
   program_.use();
   program_.set(0, glm::vec2(texels_));
-  if (has_parts_) program_.set(EffectShaders::kActiveEffects, active);
+  if (has_effects_) program_.set(EffectShaders::kActiveEffects, active);
 
   const glm::vec3 eye(view.eye_km);
   const float distance = glm::length(eye);
