@@ -37,7 +37,7 @@ struct FogBlock {
 class Fog final : public render::Effect {
  public:
   Fog(const FogParameters& parameters, const planet::Surface& surface)
-      : parameters_(parameters), radius_m_(surface.ellipsoid().mean_radius()), block_(sizeof(FogBlock)) {}
+      : parameters_(parameters), radius_m_(surface.ellipsoid().mean_radius()) {}
 
   render::EffectShader shader() const override {
     render::EffectShader shader;
@@ -45,6 +45,8 @@ class Fog final : public render::Effect {
     shader.is_medium = true;
     return shader;
   }
+
+  void compile(const render::EffectHost& /*host*/) override { block_ = gl::Buffer(sizeof(FogBlock)); }
 
   render::Verdict judge(const render::EffectView& view) const override {
     const double above_m = view.height_m - parameters_.base_m;
