@@ -131,12 +131,8 @@ void main() {
     float top = ground + kAirTop;
     float entry = radius > top ? max(-along - sqrt(max(along * along - radius * radius + top * top, 0.0)), 0.0) : 0.0;
     vec3 sun_here = sun_transmittance(max(height_km, 0.0), cos_sun, ground);
-    shading.haze = haze(view.eye_km.xyz, direction, min(entry, away), away, sun, view.sun_at_eye.xyz, sun_here, cos_sun,
-                        ground, HAZE_STEPS, left);
-    // In twilight the sun's share is not linear along a ray: sampled there, and there only (a loop of no turns costs nothing).
-    int exact_steps = view.sun_at_eye.w > 0.0 ? 2 * HAZE_STEPS : 0;
-    vec4 exact = sky_light(view.eye_km.xyz, direction, min(entry, away), away, sun, ground, exact_steps);
-    shading.haze = view.sun.w * (exact_steps > 0 ? with_mie(exact, dot(direction, sun)) : shading.haze);
+    shading.haze = view.sun.w * light_before(view.eye_km.xyz, direction, min(entry, away), away, sun, cos_sun, ground,
+                                             HAZE_STEPS, left);
     shading.sunlight = view.sun.w * left * sun_here * 0.3183099;
     shading.skylight = view.sun.w * left * sky_irradiance(max(height_km, 0.0), cos_sun) * 0.3183099;
   } else {
