@@ -146,7 +146,7 @@ void run(FlyOptions options, const CLI::App& command) {
   const geo::Ellipsoid& ellipsoid = surface->ellipsoid();
 
   const globe::gl::Context context(view.device);
-  render::GlobeRenderer renderer(surface, settings);
+  render::GlobeRenderer renderer(surface, settings, effects_of(scene, *surface));
   Lens lens(optics, size.width, size.height, view.samples, settings.background);
   const globe::gl::Framebuffer& target = lens.target();
 
@@ -175,6 +175,7 @@ void run(FlyOptions options, const CLI::App& command) {
   Progress progress(progress_style(view.quiet || view.output == "-", false));
 
   lens.warm_up(renderer);
+  renderer.set_instant(sun.instant(0.0));
   lens.draw(renderer, camera_at(flight.at(0.0, true)), sun.at(0.0), true);
   globe::gl::TimerQuery timer = globe::gl::TimerQuery::create();
   FrameClock clock(
@@ -186,6 +187,7 @@ void run(FlyOptions options, const CLI::App& command) {
     const auto begin = std::chrono::steady_clock::now();
     const Flight::View at = flight.at(t, options.wait);
     const render::Camera camera = camera_at(at);
+    renderer.set_instant(sun.instant(t * flight.duration_s()));
     timer.begin();
     const render::FrameStats frame =
         lens.draw(renderer, camera, sun.at(t * flight.duration_s()), options.wait, budget.uploads_ms());

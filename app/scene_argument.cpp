@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "globe/base/error.h"
+#include "globe/effects/list.h"
 
 namespace app {
 namespace {
@@ -17,7 +18,7 @@ void take(const CLI::App& command, const char* option, Value& value, const std::
 
 std::optional<scene::Scene> scene_of(const std::string& word) {
   if (!word.ends_with(".toml") || std::filesystem::is_directory(word)) return std::nullopt;
-  return scene::read_scene(word, {});
+  return scene::read_scene(word, globe::effects::effect_kinds());
 }
 
 }  // namespace
@@ -50,6 +51,12 @@ std::optional<scene::Scene> take_scene(const CLI::App& command, ViewOptions& opt
   take(command, "--positions", options.positions, picture.positions);
   take(command, "--window", options.window, picture.window);
   return scene;
+}
+
+std::vector<globe::render::NamedEffect> effects_of(const std::optional<scene::Scene>& scene,
+                                                   const globe::planet::Surface& surface) {
+  if (!scene) return {};
+  return globe::effects::make_effects(*scene, surface);
 }
 
 }  // namespace app

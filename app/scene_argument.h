@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <vector>
 
 #include "app/view_options.h"
 #include "globe/scene/scene.h"
@@ -13,5 +14,9 @@ namespace app {
 /// up to the command. Throws what globe::scene::read_scene throws.
 std::optional<globe::scene::Scene> take_scene(const CLI::App& command, CameraOptions& options);
 std::optional<globe::scene::Scene> take_scene(const CLI::App& command, ViewOptions& options);
+
+/// The effects that it asks for; none without a scene. Throws what effects::make_effects throws.
+std::vector<globe::render::NamedEffect> effects_of(const std::optional<globe::scene::Scene>& scene,
+                                                   const globe::planet::Surface& surface);
 
 }  // namespace app

@@ -66,7 +66,7 @@ void run(ShotOptions options, const CLI::App& command) {
   const Sunlight sun = sun_for(view, *surface, sunny);
 
   const globe::gl::Context context(view.device);
-  render::GlobeRenderer renderer(surface, settings);
+  render::GlobeRenderer renderer(surface, settings, effects_of(scene, *surface));
   Lens lens(optics, size.width, size.height, view.samples, settings.background);
   const globe::gl::Framebuffer& target = lens.target();
 
@@ -76,6 +76,7 @@ void run(ShotOptions options, const CLI::App& command) {
   const render::Camera camera =
       optics.camera(surface->ellipsoid(), stand.place, stand.look.heading_deg, stand.look.pitch_deg,
                     static_cast<double>(size.width) / size.height);
+  renderer.set_instant(sun.instant(options.stand.moment_s));
   lens.draw(renderer, camera, sun.at(options.stand.moment_s), true);
   if (view.show == "depth") {
     write_depth(view, size, target.read_depth(),

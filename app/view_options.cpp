@@ -168,6 +168,11 @@ glm::dvec3 Sunlight::at(double seconds) const {
   return globe::geo::sun_direction(globe::geo::later_by(*date_, speed_ * seconds));
 }
 
+globe::render::Instant Sunlight::instant(double seconds) const {
+  if (!date_) return {seconds};
+  return {seconds, globe::geo::ecef_from_celestial(globe::geo::later_by(*date_, speed_ * seconds))};
+}
+
 Sunlight sun_for(const CameraOptions& options, const globe::planet::Surface& surface,
                  const globe::geo::Geodetic& target) {
   namespace geo = globe::geo;

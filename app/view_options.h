@@ -83,6 +83,8 @@ class Sunlight {
 
   /// Unit vector toward it, ECEF.
   glm::dvec3 at(double seconds) const;
+  /// What effects are told of that second: without a date the sky stands with the spring equinox over 0 E.
+  globe::render::Instant instant(double seconds) const;
 
  private:
   glm::dvec3 direction_{1, 0, 0};

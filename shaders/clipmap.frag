@@ -1,5 +1,8 @@
 #include "lib/lit_ground.glsl"
 #include "lib/tone.glsl"
+#ifdef EFFECTS
+#include "effects.glsl"  // what the effects at work add, put together by render::EffectShaders
+#endif
 
 layout(binding = 2) uniform sampler2DArray lit_ground_of;
 #ifdef GLINT
@@ -25,6 +28,11 @@ in Shading {
 #ifdef GLINT
   float glint;
 #endif
+#ifdef EFFECTS
+  vec3 relative;
+  float height;
+  vec3 left;
+#endif
 } shading;
 flat in vec3 layers;  // fine, coarse, level
 
@@ -48,11 +56,23 @@ vec4 at_pixel(sampler2DArray values) {
 
 void main() {
   vec4 lit = at_pixel(lit_ground_of);
+#ifdef EFFECTS
+  Place place = place_at(shading.relative, shading.height, shading.left);
+  vec3 sunlight = shading.sunlight;
+  vec3 skylight = shading.skylight;
+  dim_by_effects(sunlight, skylight, place);
+  vec3 light = ground_light(lit, sunlight, skylight);
+#ifdef GLINT
+  light += at_pixel(water_of).r * shading.glint * sunlight;
+#endif
+  light = through_effects(added_by_effects(light, place) + shading.haze, place);
+#else
   vec3 light = ground_light(lit, shading.sunlight, shading.skylight) + shading.haze;
 #ifdef GLINT
   light += at_pixel(water_of).r * shading.glint * shading.sunlight;
 #endif
-  vec3 shown = tone_mapped(light);
+#endif
+  vec3 shown = shown_light(light);
 #ifdef SHOW
   if (show == 1) shown = mix(shown, level_tint(layers.z), 0.45);
   if (show == 2) shown = mix(shown, level_tint(layers.z * 7.0 + layers.x), 0.45);

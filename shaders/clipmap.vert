@@ -1,6 +1,6 @@
 #define OUT(type) out type
 #include "lib/clipmap.glsl"
-#include "lib/atmosphere.glsl"
+#include "lib/air_light.glsl"
 #include "lib/lit_ground.glsl"
 #include "lib/view.glsl"
 
@@ -36,6 +36,11 @@ out Shading {
 #endif
 #ifdef GLINT
   float glint;
+#endif
+#ifdef EFFECTS
+  vec3 relative;  // metres from the eye
+  float height;
+  vec3 left;  // share of the light that starts here and reaches the eye
 #endif
 } shading;
 flat out vec3 layers;  // fine, coarse, level
@@ -102,46 +107,17 @@ void main() {
   layers = vec3(slot.coarse.w, slot.coarse.w, slot.coarse.z);
 #endif
 
-  vec3 relative_km = position * 1e-3;
-  vec3 round_km = relative_km * view.rounding.xxy;  // in round space the air has one thickness everywhere
-  // Far off, a vertex in the middle of a long edge lies hundreds of metres inside the planet: for the air it is lifted to its height,
-  // or the lattice would show in the haze.
-  float height_km = height * 1e-3;
-  vec3 from_centre = view.eye_km.xyz + round_km;
-  if (dot(round_km, round_km) > 400.0) {
-    float radius_km = length(from_centre);
-    round_km += from_centre * ((view.eye_km.w + height_km) / radius_km - 1.0);
-  }
-  vec3 normal = normalize((view.eye_km.xyz + round_km) * view.rounding.xxy);
-  vec3 sun = view.sun.xyz;
-  float cos_sun = dot(sun, normal);
-  float away = length(round_km);
-  vec3 direction = round_km / max(away, 1e-9);
+  AirLight light = air_light(position, height);
 #ifdef GLINT
-  vec3 half_way = normalize(sun - direction);
-  shading.glint = 0.22 / kSunRange * pow(max(dot(normal, half_way), 0.0), 120.0) * step(0.0, cos_sun);
+  vec3 half_way = normalize(view.sun.xyz - light.direction);
+  shading.glint = 0.22 / kSunRange * pow(max(dot(light.up, half_way), 0.0), 120.0) * step(0.0, light.cos_sun);
 #endif
-
-  if (view.rounding.z > 0.0) {
-    float ground = view.eye_km.w;
-    vec3 left;
-    // The stretch of the ray inside the air.
-    float radius = length(view.eye_km.xyz);
-    float along = dot(view.eye_km.xyz, direction);
-    float top = ground + kAirTop;
-    float entry = radius > top ? max(-along - sqrt(max(along * along - radius * radius + top * top, 0.0)), 0.0) : 0.0;
-    vec3 sun_here = sun_transmittance(max(height_km, 0.0), cos_sun, ground);
-    shading.haze = view.sun.w * light_before(view.eye_km.xyz, direction, min(entry, away), away, sun, cos_sun, ground,
-                                             HAZE_STEPS, left);
-    shading.sunlight = view.sun.w * left * sun_here * 0.3183099;
-    shading.skylight = view.sun.w * left * sky_irradiance(max(height_km, 0.0), cos_sun) * 0.3183099;
-  } else {
-    shading.haze = vec3(0.0);
-    shading.sunlight = vec3(view.sun.w * 0.3183099);
-    shading.skylight = vec3(view.sun.w * 0.3183099 * 0.004);
-  }
-  // Ground below the sun's horizon is dark whatever its slope, with a penumbra as wide as the sun and the air make it.
-  shading.sunlight *= kSunRange * smoothstep(-0.03, 0.03, cos_sun) * view.rounding.w;
-  shading.skylight *= view.rounding.w;
-  shading.haze *= view.rounding.w;
+  shading.sunlight = light.sunlight * kSunRange;
+  shading.skylight = light.skylight;
+  shading.haze = light.haze;
+#ifdef EFFECTS
+  shading.relative = position;
+  shading.height = height;
+  shading.left = light.left;
+#endif
 }

@@ -3,6 +3,9 @@
 #include "lib/sky_map.glsl"
 #include "lib/tone.glsl"
 #include "lib/view.glsl"
+#ifdef EFFECTS
+#include "effects.glsl"
+#endif
 
 layout(binding = 4) uniform sampler2D sky_map;
 layout(location = 0) uniform vec2 size;  // texels of the map
@@ -32,5 +35,9 @@ void main() {
   }
   float beside = dot(true_direction, view.sun.xyz);
   light += view.sun_at_eye.xyz * view.sun.w * 60.0 * smoothstep(kCosSunRadius, kCosSunRadius + 4e-6, beside);
-  color = vec4(tone_mapped(light * view.rounding.w), 1.0);
+  light *= view.rounding.w;
+#ifdef EFFECTS
+  light = sky_through_effects(light, true_direction);
+#endif
+  color = vec4(shown_light(light), 1.0);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 
@@ -17,6 +18,9 @@ namespace globe::geo {
 /// Throws UsageError for anything else or a date that does not exist.
 glm::dvec3 sun_direction(const std::string& iso8601);
 glm::dvec3 sun_direction(const UtcDate& utc);
+
+/// Rotation from the celestial frame (GCRS, the axes of ICRS) to the Earth-fixed one, as for sun_direction.
+glm::dmat3 ecef_from_celestial(const UtcDate& utc);
 
 /// The sun at 10:00 local solar time at a longitude, at an equinox: over the equator, 30 degrees east of the
 /// place.

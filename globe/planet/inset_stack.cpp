@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "globe/planet/map_color.h"
+#include "globe/base/srgb.h"
 #include "globe/planet/measure.h"
 #include "globe/planet/tile_nodes.h"
 

@@ -9,7 +9,7 @@
 
 #include "globe/planet/directions.h"
 #include "globe/planet/inset_stack.h"
-#include "globe/planet/map_color.h"
+#include "globe/base/srgb.h"
 #include "globe/planet/measure.h"
 #include "globe/planet/synthesis.h"
 #include "globe/planet/tile_nodes.h"

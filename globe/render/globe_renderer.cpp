@@ -11,14 +11,13 @@
 #include <utility>
 
 #include "globe/clipmap/ground_below.h"
-#include "globe/clipmap/morph.h"
 #include "globe/render/ground_program.h"
+#include "globe/render/tone.h"
 #include "globe/render/view_block.h"
 
 namespace globe::render {
 namespace {
 
-constexpr std::size_t kMaxInstances = 32768;
 constexpr double kSunMoved =
     1e-3;  ///< radians (0.06 degrees) after which frames in real time light the ground anew
 
@@ -28,31 +27,22 @@ double milliseconds_since(std::chrono::steady_clock::time_point begin) {
 
 }  // namespace
 
-GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, const RenderSettings& settings)
+GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, const RenderSettings& settings,
+                             std::vector<NamedEffect> effects)
     : surface_(std::move(surface)),
       settings_(settings),
-      mesh_(clipmap::make_patch_mesh(settings.clipmap.m)),
-      vertices_(gl::Buffer::of(mesh_.vertices)),
-      instances_(kMaxInstances * sizeof(glm::ivec4)),
+      effects_(std::move(effects)),
+      effect_shaders_(effects_),
+      verdicts_(effects_.size()),
+      patches_(settings.clipmap),
       view_(sizeof(ViewBlock)),
-      slots_(kMaxSlots * sizeof(SlotBlock)),
-      ground_array_(gl::VertexArray::create()),
       loader_(settings.clipmap, surface_, settings.max_level, settings.load_ahead) {
-  std::vector<std::uint16_t> indices;
-  for (std::size_t rim = 0; rim < 8; ++rim) {
-    index_offset_[rim] = indices.size() * sizeof(std::uint16_t);
-    indices.insert(indices.end(), mesh_.indices[rim].begin(), mesh_.indices[rim].end());
-  }
-  indices_ = gl::Buffer::of(indices);
-  ground_array_.set_vertices(0, vertices_, 0, 2);
-  ground_array_.set_attribute(0, {0, 2, GL_UNSIGNED_BYTE, 0, gl::Attribute::Kind::kInteger});
-  ground_array_.set_vertices(1, instances_, 0, sizeof(glm::ivec4), 1);
-  ground_array_.set_attribute(1, {1, 4, GL_INT, 0, gl::Attribute::Kind::kInteger});
-  ground_array_.set_indices(indices_);
   const bool tinted = settings_.show != Show::kGround || settings_.wireframe;
   for (std::size_t k = 0; k < kLooks.size(); ++k)
-    ground_[k] = ground_program(kLooks[k], textures(), tinted, settings_.air.haze);
-  if (!settings_.background) sky_.emplace(has_air(surface_->info()), settings_.air);
+    ground_[k] = ground_program(kLooks[k], textures(), tinted, settings_.air.haze, effect_shaders_);
+  if (!settings_.background) sky_.emplace(has_air(surface_->info()), settings_.air, effect_shaders_);
+  if (effect_shaders_.keeps_light()) light_.emplace();
+  for (const NamedEffect& named : effects_) named.effect->compile(effect_host());
 }
 
 double GlobeRenderer::height_above_ground(const glm::dvec3& position, bool wait) const {
@@ -76,7 +66,7 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
     batches.push_back({look, look.kind == Kind::kRim ? 1 : 0, 0, {list.batches.front().instances.front()}});
   }
   list.batches = std::move(batches);
-  target.bind();
+  (light_ ? light_->in_place_of(target) : target).bind();
   draw_ground(list);
 }
 
@@ -90,6 +80,7 @@ FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool
 void GlobeRenderer::begin_frame(const glm::dvec3& position, const glm::dvec3& sun, bool wait,
                                 double upload_ms) {
   stats_ = {};
+  verdicts_.assign(effects_.size(), {});
   sun_ = sun;
   auto begin = std::chrono::steady_clock::now();
   above_m_ =
@@ -136,9 +127,15 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
 
   view_.upload(0, &view, sizeof(view));
   view_.bind_base(GL_UNIFORM_BUFFER, 0);
+  const gl::Framebuffer& picture = light_ ? light_->in_place_of(target) : target;
+  const double height_m = geo::geodetic_from_ecef(surface_->ellipsoid(), camera.position).h_m;
+  const EffectHost host = effect_host();
+  const EffectView effect_view{host,    camera,   view, *surface_, list,
+                               picture, instant_, sun_, height_m,  above_m_};
+  active_ = prepare_effects(effect_view);
   if (sky_) sky_->prepare();
 
-  target.bind();
+  picture.bind();
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
@@ -150,27 +147,60 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
   } else {
     glDisable(GL_CULL_FACE);
   }
-  const glm::vec3 background = settings_.background.value_or(glm::vec3(0.0f));
-  target.clear_color(background.r, background.g, background.b, 1.0f);
-  target.clear_depth(0.0f);
+  const glm::vec3 shown = settings_.background.value_or(glm::vec3(0.0f));
+  const glm::vec3 background = light_ ? light_shown_as(shown) : shown;
+  picture.clear_color(background.r, background.g, background.b, 1.0f);
+  picture.clear_depth(0.0f);
 
   draw_ground(list);
-  if (sky_) sky_->draw(view);
+  if (sky_) sky_->draw(view, active_);
+  if (!light_) return;
+  for (const Stage stage : {Stage::kHeavens, Stage::kSurface, Stage::kLayer, Stage::kLens})
+    draw_passes(effect_view, stage);
+  light_->show(target);
+}
+
+int GlobeRenderer::prepare_effects(const EffectView& view) {
+  int active = 0;
+  for (std::size_t k = 0; k < effects_.size(); ++k) {
+    Effect& effect = *effects_[k].effect;
+    Verdict verdict = effect.judge(view);
+    if (verdict.active) {
+      active |= 1 << k;
+      effect.prepare(view, effect_shaders_.bindings(k));
+    }
+    if (!verdicts_[k].active) verdicts_[k] = std::move(verdict);
+  }
+  return active;
+}
+
+void GlobeRenderer::draw_passes(const EffectView& view, Stage stage) {
+  for (std::size_t k = 0; k < effects_.size(); ++k) {
+    if (effects_[k].effect->stage() != stage || (active_ >> k & 1) == 0) continue;
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GEQUAL);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    effects_[k].effect->draw(view);
+  }
+  glDisable(GL_BLEND);
+}
+
+EffectHost GlobeRenderer::effect_host() const {
+  return {effect_shaders_, textures(), patches_, settings_.air};
+}
+
+std::vector<EffectState> GlobeRenderer::effect_states() const {
+  std::vector<EffectState> states;
+  for (std::size_t k = 0; k < effects_.size(); ++k)
+    states.push_back({effects_[k].name, verdicts_[k], effects_[k].effect->gpu_bytes()});
+  return states;
 }
 
 void GlobeRenderer::draw_ground(const DrawList& list) {
-  slots_.upload(0, list.slots.data(), list.slots.size() * sizeof(SlotBlock));
-  slots_.bind_base(GL_UNIFORM_BUFFER, 1);
-  std::size_t first = 0;
-  for (const Batch& batch : list.batches) {
-    instances_.upload(first * sizeof(glm::ivec4), batch.instances.data(),
-                      batch.instances.size() * sizeof(glm::ivec4));
-    first += batch.instances.size();
-    stats_.triangles +=
-        batch.instances.size() * mesh_.indices[static_cast<std::size_t>(batch.rim)].size() / 3;
-  }
-  textures().bind();
-  ground_array_.bind();
+  patches_.upload(list);
+  stats_.triangles += patches_.triangles(list);
   if (settings_.wireframe) {
     draw_batches(list, glm::vec4(0.0f, 0.0f, 0.0f, 0.35f));
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
@@ -185,31 +215,16 @@ void GlobeRenderer::draw_ground(const DrawList& list) {
 }
 
 void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay) {
-  const clipmap::Settings& c = settings_.clipmap;
-  const clipmap::MorphBand band = clipmap::morph_band(c);
-  std::size_t first = 0;
-  const gl::Program* bound = nullptr;
-  for (const Batch& batch : list.batches) {
-    const gl::Program& program = ground_[static_cast<std::size_t>(
-        std::find(kLooks.begin(), kLooks.end(), batch.look) - kLooks.begin())];
-    if (bound != &program) {
-      program.use();
-      program.set(0, glm::ivec4(c.window(), band.begin, band.end, c.m));
-      if (settings_.show != Show::kGround || settings_.wireframe) {
-        program.set(3, overlay);
-        program.set(4, static_cast<int>(settings_.show));
-      }
-      bound = &program;
+  patches_.draw(list, textures(), [&](const Look& look) {
+    const gl::Program& program =
+        ground_[static_cast<std::size_t>(std::find(kLooks.begin(), kLooks.end(), look) - kLooks.begin())];
+    if (settings_.show != Show::kGround || settings_.wireframe) {
+      program.set(3, overlay);
+      program.set(4, static_cast<int>(settings_.show));
     }
-    if (batch.look.kind == Kind::kRim) program.set(2, batch.rim | batch.rim_corners << 3);
-    const auto rim = static_cast<std::size_t>(batch.rim);
-    // OpenGL takes an offset into the bound buffer as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
-    const void* const first_index = reinterpret_cast<const void*>(index_offset_[rim]);
-    glDrawElementsInstancedBaseInstance(
-        GL_TRIANGLES, static_cast<GLsizei>(mesh_.indices[rim].size()), GL_UNSIGNED_SHORT, first_index,
-        static_cast<GLsizei>(batch.instances.size()), static_cast<GLuint>(first));
-    first += batch.instances.size();
-  }
+    if (effect_shaders_.has_parts()) program.set(EffectShaders::kActiveEffects, active_);
+    return &program;
+  });
 }
 
 }  // namespace globe::render

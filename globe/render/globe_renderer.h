@@ -4,19 +4,23 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "globe/clipmap/morph.h"
-#include "globe/clipmap/patch.h"
 #include "globe/gl/buffer.h"
 #include "globe/gl/framebuffer.h"
 #include "globe/gl/program.h"
-#include "globe/gl/vertex_array.h"
 #include "globe/planet/surface.h"
 #include "globe/render/admission.h"
 #include "globe/render/air.h"
 #include "globe/render/camera.h"
 #include "globe/render/draw_list.h"
+#include "globe/render/effect.h"
+#include "globe/render/effect_shaders.h"
+#include "globe/render/light_picture.h"
 #include "globe/render/loader.h"
+#include "globe/render/patch_drawer.h"
 #include "globe/render/sky.h"
 
 namespace globe::render {
@@ -54,11 +58,20 @@ struct FrameStats {
   bool complete = true;     ///< all of them, and none that came late is still morphing in
 };
 
-/// Draws a planet's surface: hexagonal clipmaps on HTM (DESIGN section 5) and a plain sky.
+/// What became of an effect in the frame last drawn.
+struct EffectState {
+  std::string name;
+  Verdict verdict;  ///< of the views, the first one in which it was active
+  std::size_t gpu_bytes = 0;
+};
+
+/// Draws a planet's surface: hexagonal clipmaps on HTM (DESIGN section 5), a plain sky, and the effects that
+/// it is given.
 class GlobeRenderer {
  public:
   /// A GL context must be current and stay so.
-  GlobeRenderer(std::shared_ptr<const planet::Surface> surface, const RenderSettings& settings);
+  GlobeRenderer(std::shared_ptr<const planet::Surface> surface, const RenderSettings& settings,
+                std::vector<NamedEffect> effects = {});
 
   /// What a frame may take for uploads unless it is told otherwise, milliseconds.
   static constexpr double kUploadTime = 4.0;
@@ -79,6 +92,11 @@ class GlobeRenderer {
                    double upload_ms = kUploadTime);
   /// REQUIRES: the camera stands where the frame was begun.
   void draw_view(const Camera& camera, const gl::Framebuffer& target);
+  /// The moment that effects show from the next frame on; the scene's beginning until then.
+  void set_instant(const Instant& instant) { instant_ = instant; }
+  /// Of the frame begun last, its views so far; in the order of the effects.
+  std::vector<EffectState> effect_states() const;
+
   /// Of the frame begun last, its views so far.
   const FrameStats& frame_stats() const { return stats_; }
 
@@ -106,13 +124,21 @@ class GlobeRenderer {
  private:
   void draw_ground(const DrawList& list);
   void draw_batches(const DrawList& list, const glm::vec4& overlay);
+  EffectHost effect_host() const;
+  /// Which effects are active in a view, prepared for it: one bit each.
+  int prepare_effects(const EffectView& view);
+  void draw_passes(const EffectView& view, Stage stage);
 
   std::shared_ptr<const planet::Surface> surface_;
   RenderSettings settings_;
-  clipmap::PatchMesh mesh_;
-  std::array<std::size_t, 8> index_offset_{};
-  gl::Buffer vertices_, indices_, instances_, view_, slots_;
-  gl::VertexArray ground_array_;
+  std::vector<NamedEffect> effects_;
+  EffectShaders effect_shaders_;
+  std::vector<Verdict> verdicts_;  ///< of effects_, in the frame begun last
+  int active_ = 0;                 ///< effects of the view being drawn
+  Instant instant_;
+  PatchDrawer patches_;
+  gl::Buffer view_;
+  std::optional<LightPicture> light_;              ///< where effects have passes
   std::array<gl::Program, kLooks.size()> ground_;  ///< by Look, in the order of kLooks
   std::optional<Sky> sky_;                         ///< none with a background
   Loader loader_;

@@ -3,6 +3,7 @@
 #include "globe/gl/program.h"
 #include "globe/render/clipmap_textures.h"
 #include "globe/render/draw_list.h"
+#include "globe/render/effect_shaders.h"
 
 namespace globe::render {
 
@@ -11,6 +12,6 @@ namespace globe::render {
 /// @param tinted  with the uniforms `overlay` and `show` of shaders/clipmap.frag
 /// @param haze_steps  AirSteps::haze
 gl::Program ground_program(const Look& look, const ClipmapTextures& textures, bool tinted, int haze_steps,
-                           const gl::ShaderReader& reader = gl::read_shader);
+                           const EffectShaders& effects = {});
 
 }  // namespace globe::render

@@ -17,10 +17,12 @@ constexpr float kOutside =
     1.05f;  ///< radii of the air: from nearer the disc of air would be as good as the screen
 constexpr float kSunRadius = 0.0047f;  ///< radians, rounded up: sky.frag draws the disc's edge
 
-gl::Program program_of(const char* fragment_shader, int steps) {
+gl::Program program_of(const char* fragment_shader, int steps, const EffectShaders& effects) {
   gl::ProgramSources sources;
   sources.files = {"sky.vert", fragment_shader};
   sources.defines = {"CAP_SIDES " + std::to_string(kCapSides), "SKY_STEPS " + std::to_string(steps)};
+  sources.defines.insert(sources.defines.end(), effects.defines().begin(), effects.defines().end());
+  sources.reader = effects.reader();
   return gl::Program(sources);
 }
 
@@ -32,10 +34,13 @@ glm::vec4 cap_around(const glm::vec3& axis, float tangent) {
 
 }  // namespace
 
-Sky::Sky(bool air, const AirSteps& steps)
-    : texels_(steps.map), array_(gl::VertexArray::create()), program_(program_of("sky.frag", steps.sky)) {
+Sky::Sky(bool air, const AirSteps& steps, const EffectShaders& effects)
+    : texels_(steps.map),
+      has_parts_(effects.has_parts()),
+      array_(gl::VertexArray::create()),
+      program_(program_of("sky.frag", steps.sky, effects)) {
   if (!air) return;
-  map_program_ = program_of("sky_map.frag", steps.sky);
+  map_program_ = program_of("sky_map.frag", steps.sky, effects);
   map_ = gl::Framebuffer(texels_.x, texels_.y, {1, GL_RGBA16F, GL_DEPTH_COMPONENT32F});
   map_.set_color_filter(GL_LINEAR);
 }
@@ -51,7 +56,7 @@ void Sky::prepare() {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Sky::draw(const ViewBlock& view) const {
+void Sky::draw(const ViewBlock& view, int active) const {
   glDisable(GL_CULL_FACE);
   glDepthFunc(GL_GEQUAL);
   glDepthMask(GL_FALSE);
@@ -59,6 +64,7 @@ void Sky::draw(const ViewBlock& view) const {
   if (map_program_) map_.color().bind(4);
   program_.use();
   program_.set(0, glm::vec2(texels_));
+  if (has_parts_) program_.set(EffectShaders::kActiveEffects, active);
 
   const glm::vec3 eye(view.eye_km);
   const float distance = glm::length(eye);

@@ -7,6 +7,7 @@
 #include "globe/gl/program.h"
 #include "globe/gl/vertex_array.h"
 #include "globe/render/air.h"
+#include "globe/render/effect_shaders.h"
 #include "globe/render/view_block.h"
 
 namespace globe::render {
@@ -18,19 +19,21 @@ namespace globe::render {
 class Sky {
  public:
   /// A GL context must be current and stay so.
-  Sky(bool air, const AirSteps& steps);
+  Sky(bool air, const AirSteps& steps, const EffectShaders& effects = {});
 
   /// Fills the map of the sky as seen from the eye; changes the bound framebuffer. The view's block must be
   /// bound.
   void prepare();
 
   /// Draws what lies at infinity where depth is still that of infinity.
-  void draw(const ViewBlock& view) const;
+  /// @param active  effects of the view, as EffectShaders has it
+  void draw(const ViewBlock& view, int active = 0) const;
 
  private:
   void draw_cap(const glm::vec4& cap) const;
 
   glm::ivec2 texels_;  ///< of the map
+  bool has_parts_;     ///< of effects
   gl::VertexArray array_;
   gl::Program program_;
   std::optional<gl::Program> map_program_;  ///< none where there is no air

@@ -8,6 +8,7 @@
 
 #include "globe/base/error.h"
 #include "globe/base/one_line.h"
+#include "globe/base/srgb.h"
 #include "globe/geo/utc.h"
 #include "globe/scene/nearest_word.h"
 #include "globe/scene/quantity.h"
@@ -149,6 +150,12 @@ std::optional<std::string> Fields::choice(const std::string& key, const std::vec
   const auto nearest = nearest_word(*word, words);
   refuse(key, '"' + *word + "\" is not " + listed(words, "or"),
          nearest ? "did you mean \"" + *nearest + "\"?" : "write one of them in quotes");
+}
+
+std::optional<glm::vec3> Fields::light(const std::string& key) {
+  const std::optional<glm::vec3> srgb = color(key);
+  if (!srgb) return srgb;
+  return glm::vec3(linear_from_srgb(srgb->r), linear_from_srgb(srgb->g), linear_from_srgb(srgb->b));
 }
 
 std::optional<glm::vec3> Fields::color(const std::string& key) {

@@ -47,6 +47,8 @@ class Fields {
   std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& words);
   /// "RRGGBB" as sRGB in [0, 1].
   std::optional<glm::vec3> color(const std::string& key);
+  /// The same as linear light, channel by channel in [0, 1].
+  std::optional<glm::vec3> light(const std::string& key);
   /// "LAT,LON[,ALT]" in any form that geo::parse_point reads.
   std::optional<geo::Point> place(const std::string& key);
   /// "HEADING,PITCH" in degrees, the pitch in [-90, 90].

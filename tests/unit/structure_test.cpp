@@ -50,9 +50,11 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
   rooms["globe/scene"] = {"globe/base", "globe/geo"};
   rooms["globe/render"] = {"globe/base",   "globe/geo",     "globe/htm",
                            "globe/planet", "globe/clipmap", "globe/gl"};
+  rooms["globe/effects"] = {"globe/base",    "globe/geo", "globe/htm",    "globe/planet",
+                            "globe/clipmap", "globe/gl",  "globe/render", "globe/scene"};
   const std::set<std::string> core{"globe/base",   "globe/geo",    "globe/htm",     "globe/region",
                                    "globe/planet", "globe/search", "globe/clipmap", "globe/gl",
-                                   "globe/scene",  "globe/render"};
+                                   "globe/scene",  "globe/render", "globe/effects"};
   rooms["converters"] = {"globe/base", "globe/geo", "globe/htm", "globe/planet"};
   rooms["flat"] = core;
   rooms["app"] = core;

@@ -38,7 +38,8 @@ struct Ground {
     array.set_indices(indices);
     for (std::size_t k = 0; k < kLooks.size(); ++k)
       programs[k] = globe::render::ground_program(kLooks[k], scene.textures, false,
-                                                  globe::render::AirSteps{}.haze, reader);
+                                                  globe::render::AirSteps{}.haze,
+                                                  globe::render::EffectShaders({}, reader));
   }
 
   void add_instances(const Buffer& instances) {

@@ -1,0 +1,87 @@
+#include "globe/render/effect_shaders.h"
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+
+namespace globe::render {
+namespace {
+
+constexpr const char* kFile = "effects.glsl";
+constexpr unsigned kFirstBlock = 2;  ///< 0 and 1: the view's, the slots'
+constexpr unsigned kFirstUnit = 5;   ///< 0 to 4: the ground's and the sky's map
+
+std::string in_capitals(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return name;
+}
+
+/// A function of the file that calls each effect's own.
+struct Part {
+  const char* head;
+  const char* last;
+  bool EffectShader::*has;
+  const char* call;  ///< "#": the effect's name
+};
+
+constexpr Part kParts[] = {{"void dim_by_effects(inout vec3 sunlight, inout vec3 skylight, Place place) {",
+                            "", &EffectShader::dims_light, "#_dim(sunlight, skylight, place);"},
+                           {"vec3 added_by_effects(vec3 light, Place place) {", "  return light;\n",
+                            &EffectShader::adds_light, "light = #_add(light, place);"},
+                           {"vec3 through_effects(vec3 light, Place place) {", "  return light;\n",
+                            &EffectShader::is_medium, "light = #_through(light, place.relative);"},
+                           {"vec3 sky_through_effects(vec3 light, vec3 direction) {", "  return light;\n",
+                            &EffectShader::is_medium, "light = #_through(light, direction * kSkyDistance);"}};
+
+std::string with_name(std::string call, const std::string& name) {
+  return call.replace(call.find('#'), 1, name);
+}
+
+}  // namespace
+
+EffectShaders::EffectShaders(std::span<const NamedEffect> effects, gl::ShaderReader reader)
+    : reader_(std::move(reader)) {
+  std::vector<EffectShader> shaders;
+  Bindings next{kFirstBlock, kFirstUnit};
+  std::string includes;
+  for (const NamedEffect& named : effects) {
+    const EffectShader& shader = shaders.emplace_back(named.effect->shader());
+    bindings_.push_back(next);
+    const std::string name = in_capitals(named.name);
+    defines_.push_back(name + "_BLOCK " + std::to_string(next.block));
+    defines_.push_back(name + "_UNIT " + std::to_string(next.unit));
+    defines_.insert(defines_.end(), shader.defines.begin(), shader.defines.end());
+    replaced_.insert(replaced_.end(), shader.replaced.begin(), shader.replaced.end());
+    ++next.block;
+    next.unit += static_cast<unsigned>(shader.textures);
+    if (!shader.file.empty()) includes += "#include \"" + shader.file + "\"\n";
+    keeps_light_ = keeps_light_ || named.effect->stage() != Stage::kNone;
+  }
+  if (keeps_light_) defines_.emplace_back("KEEP_LIGHT");
+  if (includes.empty()) return;
+  defines_.emplace_back("EFFECTS");
+  text_ = "#include \"lib/place.glsl\"\n" + includes + "layout(location = " + std::to_string(kActiveEffects) +
+          ") uniform int active_effects;\n";
+  for (const Part& part : kParts) {
+    text_ += std::string(part.head) + "\n";
+    for (std::size_t k = 0; k < effects.size(); ++k) {
+      if (shaders[k].*part.has)
+        text_ += "  if ((active_effects & " + std::to_string(1 << k) + ") != 0) " +
+                 with_name(part.call, effects[k].name) + "\n";
+    }
+    text_ += std::string(part.last) + "}\n";
+  }
+}
+
+gl::ShaderReader EffectShaders::reader() const {
+  return [text = text_, replaced = replaced_,
+          reader = reader_](const std::string& name) -> std::optional<std::string> {
+    if (name == kFile) return text;
+    const auto other =
+        std::find_if(replaced.begin(), replaced.end(), [&](const auto& pair) { return pair.first == name; });
+    return reader(other == replaced.end() ? name : other->second);
+  };
+}
+
+}  // namespace globe::render

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "globe/gl/shader_source.h"
+#include "globe/render/effect.h"
+
+namespace globe::render {
+
+/// An effect and the name that its shaders go by.
+struct NamedEffect {
+  std::string name;
+  std::unique_ptr<Effect> effect;
+};
+
+/// What the effects of a scene add to the programs that draw surfaces and the sky: the file "effects.glsl",
+/// which those include where EFFECTS is defined. Without effects nothing is defined and the programs are what
+/// they were.
+///
+/// The file offers, each doing nothing where no effect has a part in it:
+///     void dim_by_effects(inout vec3 sunlight, inout vec3 skylight, Place place)
+///     vec3 added_by_effects(vec3 light, Place place)
+///     vec3 through_effects(vec3 light, Place place)
+///     vec3 sky_through_effects(vec3 light, vec3 direction)
+/// Effects that are not active in a view are passed over by a bit of the uniform `active_effects`.
+class EffectShaders {
+ public:
+  EffectShaders() = default;
+  explicit EffectShaders(std::span<const NamedEffect> effects, gl::ShaderReader reader = gl::read_shader);
+
+  /// Location of `uniform int active_effects`, one bit an effect, in programs with has_parts().
+  static constexpr int kActiveEffects = 10;
+
+  /// Any effect adds to the programs of others.
+  bool has_parts() const { return !text_.empty(); }
+  /// Any has a pass of its own: then pictures are drawn as light and toned at the end.
+  bool keeps_light() const { return keeps_light_; }
+
+  /// Reads shaders/ with "effects.glsl" and what is replaced.
+  gl::ShaderReader reader() const;
+  /// For every program that draws surfaces or the sky.
+  const std::vector<std::string>& defines() const { return defines_; }
+  /// Of the effect of that place in the list.
+  const Bindings& bindings(std::size_t effect) const { return bindings_[effect]; }
+
+ private:
+  std::string text_;
+  bool keeps_light_ = false;
+  std::vector<std::string> defines_;
+  std::vector<std::pair<std::string, std::string>> replaced_;
+  std::vector<Bindings> bindings_;
+  gl::ShaderReader reader_ = gl::read_shader;
+};
+
+}  // namespace globe::render
