@@ -50,6 +50,7 @@ std::optional<scene::Scene> take_scene(const CLI::App& command, ViewOptions& opt
   take(command, "--background", options.background, picture.background);
   take(command, "--positions", options.positions, picture.positions);
   take(command, "--window", options.window, picture.window);
+  if (globe::effects::draws_sea(*scene)) options.sea_floor = globe::planet::SeaFloor::kBare;
   return scene;
 }
 

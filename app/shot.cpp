@@ -8,7 +8,6 @@
 #include "app/standing_camera.h"
 #include "app/view_options.h"
 #include "globe/base/error.h"
-#include "globe/clipmap/ground_below.h"
 #include "globe/gl/context.h"
 #include "globe/gl/framebuffer.h"
 #include "globe/render/camera.h"
@@ -80,9 +79,7 @@ void run(ShotOptions options, const CLI::App& command) {
   lens.draw(renderer, camera, sun.at(options.stand.moment_s), true);
   if (view.show == "depth") {
     write_depth(view, size, target.read_depth(),
-                render::near_distance(surface->ellipsoid(),
-                                      std::max(renderer.height_above_ground(camera.position),
-                                               globe::clipmap::least_above_ground(surface->ellipsoid()))));
+                render::near_distance(surface->ellipsoid(), renderer.nearest_drawn(camera.position)));
   } else if (view.output.ends_with(".exr")) {
     const std::vector<float> rgba = target.read_rgba_float();
     write_image(view.output, size.width, size.height, {"R", "G", "B", "A"}, rgba, view.overwrite);

@@ -46,6 +46,8 @@ struct ViewOptions : CameraOptions {
   bool quiet = false;
   std::string device = "auto";
   int memory_mb = 640;
+  /// Bare where an effect of the scene draws the sea.
+  globe::planet::SeaFloor sea_floor = globe::planet::SeaFloor::kFlooded;
 };
 
 /// What frames are drawn with, whatever becomes of them.

@@ -42,6 +42,9 @@ out Shading {
   float height;
   vec3 left;  // share of the light that starts here and reaches the eye
 #endif
+#ifdef SEA
+  float depth;  // metres of water over the floor
+#endif
 } shading;
 flat out vec3 layers;  // fine, coarse, level
 
@@ -58,6 +61,10 @@ bool on_rim(ivec2 ab) {
 #include "lib/interpolated_vertices.glsl"
 #else
 #include "lib/stored_vertices.glsl"
+#endif
+
+#ifdef SEA
+#include "effects/sea_vertex.glsl"
 #endif
 
 void main() {
@@ -94,6 +101,11 @@ void main() {
     position = rim_vertex.xyz + coarse.offset.xyz;
     height = rim_vertex.w;
   }
+#endif
+#ifdef SEA
+  shading.depth = -height;
+  position = sea_over(position, height);
+  height = 0.0;
 #endif
   precise vec4 clip = view.clip_from_relative * vec4(position, 1.0);
   gl_Position = clip;

@@ -48,7 +48,21 @@ ShadingBlock make_shading_block(const Lighting& lighting, int level, int d, cons
   return block;
 }
 
-PatchBounds bound_patch(const Settings& settings, const LevelData& data, const Patch& patch) {
+/// Bounds of a patch of sea floor and of the sea over it: a sphere around both, the sea's being as wide.
+PatchBounds with_sea(const dvec3& anchor, const PatchBounds& floor) {
+  constexpr auto kWaves = static_cast<float>(planet::kHighestWave);
+  const glm::vec3 up(glm::normalize(anchor + dvec3(floor.centre)));
+  const float rise = kWaves - floor.lowest;
+  PatchBounds both = floor;
+  both.centre += 0.5f * rise * up;
+  both.radius += rise * (0.5f + floor.radius / static_cast<float>(glm::length(anchor + dvec3(floor.centre))));
+  both.highest = std::max(floor.highest, kWaves);
+  both.water = true;
+  return both;
+}
+
+PatchBounds bound_patch(const Settings& settings, const Surface& surface, const LevelData& data,
+                        const Patch& patch) {
   const auto d = static_cast<std::size_t>(patch.trixel.d);
   glm::vec3 low(std::numeric_limits<float>::max());
   glm::vec3 high(std::numeric_limits<float>::lowest());
@@ -73,6 +87,7 @@ PatchBounds bound_patch(const Settings& settings, const LevelData& data, const P
       bounds.radius = std::max(bounds.radius, glm::distance(bounds.centre, glm::vec3(position(a, b))));
     }
   }
+  if (surface.has_bare_floor() && lowest < 0.0f) bounds = with_sea(data.anchor, bounds);
   return bounds;  // morphed vertices lie between these positions, hence inside
 }
 
@@ -163,7 +178,7 @@ dvec3 level_anchor(const Settings& settings, const Surface& surface, const Regio
     return dvec3(0.0);  // the whole sphere: its centre
   }
   return geo::ecef_from_normal(surface.ellipsoid(), planet::node_direction(node),
-                               surface.drawn_height(surface.height(node)));
+                               surface.mesh_height(surface.height(node)));
 }
 
 LevelUpdate update_level(const Settings& settings, const Surface& surface, Region region,
@@ -204,7 +219,8 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
   std::sort(data->patches.begin(), data->patches.end(),
             [](const Patch& a, const Patch& b) { return a.trixel < b.trixel; });
   data->bounds.reserve(data->patches.size());
-  for (const Patch& patch : data->patches) data->bounds.push_back(bound_patch(settings, *data, patch));
+  for (const Patch& patch : data->patches)
+    data->bounds.push_back(bound_patch(settings, surface, *data, patch));
   // between chords of whole patches, as deep as triangles of that size would lie
   const int drawn_flat = settings.positions == Positions::kChord
                              ? level - static_cast<int>(std::bit_width(static_cast<unsigned>(settings.m))) + 1

@@ -141,6 +141,7 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
   const TileMetric metrics(surface.ellipsoid(), id);
   const double edge = std::ldexp(surface.root_edge(), -id.level);
   const bool sea = surface.has_sea();
+  const bool bare = surface.has_bare_floor();
   const double exaggeration = surface.exaggeration();
   for (int j = part.j0; j <= part.j1; ++j) {
     for (int i = part.i0; i <= part.i1; ++i) {
@@ -158,12 +159,13 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
       ground.sin_latitude = metrics.sin_latitude(i, j);
       const bool water = sea && ground.height_m < 0.0;
       glm::vec3 color = planet::albedo(ground);
-      const bool open_water = water && color.r < 0.3f;  // not pack ice
+      const bool open_water =
+          water && (bare ? planet::pack_ice(ground) < 0.5f : color.r < 0.3f);  // not pack ice
       if (coloring != nullptr) color = (*coloring)(ground, color);
       const std::size_t k = static_cast<std::size_t>(j - held.j0) * static_cast<std::size_t>(held.width()) +
                             static_cast<std::size_t>(i - held.i0);
-      ground_nodes.normal[k] =
-          encode_normal(water ? ground.slope * water_clarity(ground.height_m) : ground.slope * exaggeration);
+      ground_nodes.normal[k] = encode_normal(water && !bare ? ground.slope * water_clarity(ground.height_m)
+                                                            : ground.slope * exaggeration);
       ground_nodes.albedo[k] = {encode_albedo(color.r), encode_albedo(color.g), encode_albedo(color.b),
                                 open_water ? 255 : 0};
     }

@@ -4,6 +4,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,7 +49,9 @@ struct EffectView {
   const Instant& instant;
   glm::dvec3 sun;         ///< unit vector toward it, ECEF
   double height_m;        ///< of the eye above the ellipsoid
-  double above_ground_m;  ///< of the eye, at least what a camera counts as
+  double above_ground_m;  ///< of the eye, at least what a camera counts as; under water at most its depth
+  std::optional<double> water_m;  ///< height of the water over or under the eye, where an effect draws water
+  int active = 0;                 ///< effects of the view, as EffectShaders has it; when passes are drawn
 };
 
 /// Whether an effect has anything to do in a view, and why: for people, a few words.
@@ -110,6 +113,10 @@ class Effect {
 
   /// The look of the ground, where the effect gives it another; the same all the time.
   virtual std::shared_ptr<const planet::Coloring> coloring() const { return nullptr; }
+
+  /// Height above the ellipsoid of the water that it draws over or under the eye, waves included; nothing
+  /// where there is none. Of the view's members water_m is not known yet.
+  virtual std::optional<double> water_height_m(const EffectView& /*view*/) const { return std::nullopt; }
 
   /// Has the programs of its own passes compiled; once, before the first frame.
   virtual void compile(const EffectHost& /*host*/) {}

@@ -52,6 +52,10 @@ double GlobeRenderer::height_above_ground(const glm::dvec3& position, bool wait)
   return clipmap::height_above_ground(settings_.clipmap, *surface_, position, settings_.max_level, wait);
 }
 
+double GlobeRenderer::nearest_drawn(const glm::dvec3& position, bool wait) const {
+  return clipmap::nearest_drawn(*surface_, position, height_above_ground(position, wait));
+}
+
 void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
   // Software drivers compile a program at its first draw: draw a patch with each, and whatever the first view
   // needs otherwise.
@@ -66,7 +70,8 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
   std::vector<Batch> batches;
   batches.reserve(kLooks.size());
   for (const Look& look : kLooks) {
-    batches.push_back({look, look.kind == Kind::kRim ? 1 : 0, 0, {list.batches.front().instances.front()}});
+    batches.push_back(
+        {look, look.kind == Kind::kRim ? 1 : 0, 0, false, {list.batches.front().instances.front()}});
   }
   list.batches = std::move(batches);
   target.bind();
@@ -86,8 +91,7 @@ void GlobeRenderer::begin_frame(const glm::dvec3& position, const glm::dvec3& su
   verdicts_.assign(effects_.size(), {});
   sun_ = sun;
   auto begin = std::chrono::steady_clock::now();
-  above_m_ =
-      std::max(height_above_ground(position, wait), clipmap::least_above_ground(surface_->ellipsoid()));
+  above_m_ = nearest_drawn(position, wait);
   const auto finest =
       clipmap::finest_level(settings_.clipmap, surface_->root_edge(), above_m_, settings_.max_level);
   const geo::Geodetic place = geo::geodetic_from_ecef(surface_->ellipsoid(), position);
@@ -132,9 +136,12 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
   view_.bind_base(GL_UNIFORM_BUFFER, 0);
   const double height_m = geo::geodetic_from_ecef(surface_->ellipsoid(), camera.position).h_m;
   const EffectHost host = effect_host();
-  const EffectView effect_view{host,   camera,   view, *surface_, list,
-                               target, instant_, sun_, height_m,  above_m_};
-  active_ = prepare_effects(effect_view);
+  EffectView effect_view{host,     camera, view,     *surface_, list, target,
+                         instant_, sun_,   height_m, above_m_,  {},   0};
+  for (const NamedEffect& named : effects_) {
+    if (const auto water_m = named.effect->water_height_m(effect_view)) effect_view.water_m = water_m;
+  }
+  effect_view.active = active_ = prepare_effects(effect_view);
   const bool keep_light = (active_ & EffectShaders::kKeepLight) != 0;
   const gl::Framebuffer& picture = keep_light ? light_->in_place_of(target) : target;
   if (sky_) sky_->prepare();
@@ -159,8 +166,8 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
   draw_ground(list);
   if (sky_) sky_->draw(view, active_);
   if (!keep_light) return;
-  const EffectView light_view{host,    camera,   view, *surface_, list,
-                              picture, instant_, sun_, height_m,  above_m_};
+  const EffectView light_view{host,     camera, view,     *surface_, list,                picture,
+                              instant_, sun_,   height_m, above_m_,  effect_view.water_m, active_};
   for (const Stage stage : {Stage::kHeavens, Stage::kSurface, Stage::kLayer, Stage::kLens}) {
     if (stage == Stage::kSurface || !settings_.background) draw_passes(light_view, stage);
   }
@@ -226,9 +233,9 @@ void GlobeRenderer::draw_ground(const DrawList& list) {
 }
 
 void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay) {
-  patches_.draw(list, textures(), [&](const Look& look) {
-    const gl::Program& program =
-        ground_[static_cast<std::size_t>(std::find(kLooks.begin(), kLooks.end(), look) - kLooks.begin())];
+  patches_.draw(list, textures(), [&](const Batch& batch) {
+    const gl::Program& program = ground_[static_cast<std::size_t>(
+        std::find(kLooks.begin(), kLooks.end(), batch.look) - kLooks.begin())];
     if (settings_.show != Show::kGround || settings_.wireframe) {
       program.set(3, overlay);
       program.set(4, static_cast<int>(settings_.show));

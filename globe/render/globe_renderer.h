@@ -118,6 +118,8 @@ class GlobeRenderer {
   /// @param wait  true: of the level it wants, which may have to be synthesised first; false: of what is at
   /// hand
   double height_above_ground(const glm::dvec3& position, bool wait = true) const;
+  /// clipmap::nearest_drawn of that: what the near plane goes by, too.
+  double nearest_drawn(const glm::dvec3& position, bool wait = true) const;
 
   /// The clipmap's textures on the GPU.
   const ClipmapTextures& textures() const { return loader_.textures(); }
