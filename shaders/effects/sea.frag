@@ -3,7 +3,6 @@
 #include "lib/ground_pixel.glsl"
 #include "lib/lit_ground.glsl"
 #include "lib/sky_map.glsl"
-#include "lib/tone.glsl"
 #include "effects.glsl"
 
 layout(binding = 4) uniform sampler2D sky_map;
@@ -160,5 +159,5 @@ void main() {
     }
   }
   light = through_effects(added_by_effects(light, place) + shading.haze, place);
-  color = vec4(shown_light(light), 1.0);
+  color = vec4(light, 1.0);
 }
