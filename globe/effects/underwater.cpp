@@ -21,8 +21,8 @@ struct UnderwaterParameters {
 };
 
 UnderwaterParameters read_underwater(scene::Fields& fields) {
-  return {fields.light("color").value_or(glm::vec3(0.03f, 0.16f, 0.19f)),
-          fields.length_m("visibility", {0.1, 200.0}).value_or(30.0)};
+  return {fields.light("color").value_or(glm::vec3(0.014f, 0.080f, 0.105f)),
+          fields.length_m("visibility", {0.1, 200.0}).value_or(40.0)};
 }
 
 /// Mirrors `Underwater` in shaders/effects/underwater.glsl (std140).
