@@ -227,17 +227,21 @@ CloudCover made_up_cover(std::uint32_t seed, int side) {
       const planet::LaneFloats x = planet::fractal_noise(seed + 1, places, 3.0, 4, 0.5f);
       const planet::LaneFloats y = planet::fractal_noise(seed + 2, places, 3.0, 4, 0.5f);
       const planet::LaneFloats z = planet::fractal_noise(seed + 3, places, 3.0, 4, 0.5f);
+      planet::LanePlaces plain{};
       for (std::size_t k = 0; k < kLanes; ++k) {
         // Winds blow along the parallels more than across.
         const dvec3 warp(static_cast<double>(x[k]), static_cast<double>(y[k]), 0.5 * static_cast<double>(z[k]));
         const dvec3 p = places.get(k) + 0.16 * warp;
         streaked.set(k, dvec3(p.x, p.y, 1.9 * p.z));
+        const int column = std::min(first + static_cast<int>(k), side - 1);
+        plain.set(k, glm::normalize(cube_direction(face, column, row, side)) + 0.05 * warp);
       }
-      const planet::LaneFloats broad = planet::fractal_noise(seed + 4, streaked, 2.2, 9, 0.56f);
-      const planet::LaneFloats ridges = planet::ridged_noise(seed + 5, streaked, 5.0, 6, 0.6f);
+      const planet::LaneFloats broad = planet::fractal_noise(seed + 4, streaked, 2.2, 9, 0.58f);
+      const planet::LaneFloats ridges = planet::ridged_noise(seed + 5, streaked, 6.0, 7, 0.66f);
+      const planet::LaneFloats broken = planet::fractal_noise(seed + 6, plain, 14.0, 7, 0.68f);
       for (std::size_t k = 0; k < kLanes && first + static_cast<int>(k) < side; ++k)
         cover.at(face, first + static_cast<int>(k), row) =
-            broad[k] + 0.45f * (ridges[k] - 0.5f) + static_cast<float>(1.25 * belts[k]);
+            broad[k] + 0.5f * (ridges[k] - 0.5f) + 0.42f * broken[k] + static_cast<float>(1.25 * belts[k]);
     }
   });
   spread_evenly(cover);

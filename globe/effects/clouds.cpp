@@ -20,11 +20,11 @@
 namespace globe::effects {
 namespace {
 
-constexpr int kRings = 48, kSectors = 72;  ///< of the layer's mesh
+constexpr int kRings = 48, kSectors = 96;  ///< of the layer's mesh
 constexpr int kMadeUpSide = 1024;          ///< texels of a face of the cover: 12 km and less on the Earth
 constexpr int kDetailSide = 512;
-constexpr double kCoarseTile_m = 44e3, kFineTile_m = 5500;  ///< of the detail near by
-constexpr double kDepth = 26;            ///< optical, of the thickest cloud
+constexpr double kCoarseTile_m = 88e3, kFineTile_m = 8e3;  ///< of the detail near by
+constexpr double kDepth = 16;            ///< optical, of the thickest cloud
 constexpr double kSunAway = -0.12;       ///< cosine of its zenith angle from which no shadow is cast
 constexpr double kSmallest = 1.0 / 256;  ///< share of light taken, and part of a picture's height, that show
 constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -153,14 +153,14 @@ class Clouds final : public render::Effect {
     const bool given = image_.has_value();
     // A picture's clear sky is not all black; made-up weather begins where its share of the sphere does.
     const double begins = given ? 1.15 - 2.0 * parameters_.coverage : 1.0 - parameters_.coverage;
-    const double gain = given ? 1.0 / 0.7 : 1.0 / 0.4;
+    const double gain = given ? 1.0 / 0.85 : 1.0 / 0.7;
     const CloudsBlock block{
         glm::vec4(parameters_.color, static_cast<float>(parameters_.opacity)),
         glm::vec4(glm::dvec4(stand.layer_m * 1e-3, stand.ground_m * 1e-3, stand.over_layer_m(), half_thickness_m)),
         glm::vec4(glm::dvec4(begins, gain, kDepth, pixel)),
         glm::vec4(glm::dvec4(std::cos(angle), std::sin(angle), inside ? 1.0 : 0.0, cover_.width())),
-        glm::vec4(glm::dvec4(stand.ground_m / kCoarseTile_m, stand.ground_m / kFineTile_m, given ? 0.2 : 0.30,
-                             given ? 0.06 : 0.10))};
+        glm::vec4(glm::dvec4(stand.ground_m / kCoarseTile_m, stand.ground_m / kFineTile_m, given ? 0.2 : 0.34,
+                             given ? 0.06 : 0.11))};
     block_.upload(0, &block, sizeof(block));
     block_.bind_base(GL_UNIFORM_BUFFER, bindings.block);
     cover_.bind(bindings.unit);

@@ -50,8 +50,8 @@ CloudHere cloud_at(vec3 up_of_place, float footprint_km) {
 
   // Near by a finer fractal breaks the edges up. It lies on the faces of the cube, blended over their edges; loops of no turns
   // cost nothing.
-  float near = 1.0 - smoothstep(1.0, 4.0, footprint_km);
-  float nearer = 1.0 - smoothstep(0.1, 0.5, footprint_km);
+  float near = 1.0 - smoothstep(0.5, 2.5, footprint_km);
+  float nearer = 1.0 - smoothstep(0.05, 0.3, footprint_km);
   int second = size[(first + 1) % 3] >= size[(first + 2) % 3] ? (first + 1) % 3 : (first + 2) % 3;
   int third = 3 - first - second;
   float beside = smoothstep(0.93, 1.0, size[second] / size[first]);
@@ -81,13 +81,13 @@ CloudHere cloud_at(vec3 up_of_place, float footprint_km) {
   CloudHere cloud;
   cloud.depth = clouds.cover.z * dense * dense;
   // The shape that a satellite sees is broad, that of a heap steep: each by its own height in kilometres.
-  float steepness = (9.0 * rise + 0.55 * fine_rise) * clouds.cover.y / clouds.layer.y;
+  float steepness = (9.0 * rise + 0.42 * fine_rise) * clouds.cover.y / clouds.layer.y;
   cloud.toward_sun = steepness * (1.0 - smoothstep(1.0, 1.6, rest));
   return cloud;
 }
 
-// Share of the light that comes through to the other side, after any number of scatterings (two streams, asymmetry 0.85).
-float cloud_passes(float depth) { return 1.0 / (1.0 + 0.11 * depth); }
+// Share of the light that comes through to the other side, after any number of scatterings (two streams, asymmetry 0.73).
+float cloud_passes(float depth) { return 1.0 / (1.0 + 0.2 * depth); }
 
 void clouds_dim(inout vec3 sunlight, inout vec3 skylight, Place place) {
   float radius = clouds.layer.y + place.height * 1e-3;
@@ -114,10 +114,10 @@ vec3 cloud_light(CloudHere cloud, vec3 sunlight, vec3 skylight, float cos_sun, f
   vec3 light;
   if (above) {
     // Light that has been scattered often softens the relief.
-    float lit = (0.18 + 0.82 * facing) * (0.97 - 0.27 * passes) + 0.55 * relief * (1.0 - 0.5 * facing);
+    float lit = (0.16 + 0.68 * facing) * (1.0 - 0.45 * passes) + 0.5 * relief * (1.0 - 0.5 * facing);
     light = sunlight * max(lit, 0.10 + 0.25 * facing) + skylight;
   } else {
-    float lit = (0.16 + 0.84 * facing) * passes * (1.0 + 0.45 * relief) + phase * exp(-0.6 * cloud.depth);
+    float lit = 0.8 * (0.16 + 0.84 * facing) * passes * (1.0 + 0.4 * relief) + phase * exp(-0.6 * cloud.depth);
     light = sunlight * lit + skylight * (0.45 + 0.55 * passes);
   }
   return clouds.color.rgb * light;

@@ -1,5 +1,5 @@
 // The layer of clouds as a cap of a sphere about the eye's vertical: rings that widen with their distance, sectors over the part of
-// the horizon that is in view. Chords lie below the sphere by less than 1/1800 of what the eye could tell.
+// the horizon that is in view. Corners are lifted so that the triangles' middles, not they, touch the sphere.
 #define OUT(type) out type
 #include "effects/clouds.glsl"
 #include "lib/air_light.glsl"
@@ -16,17 +16,22 @@ out Layer {
   vec3 relative;  // metres from the eye
 } layer;
 
+float ring_angle(float ring) { return cap.x * (exp(cap.y * ring / float(RINGS)) - 1.0) / (exp(cap.y) - 1.0); }
+
 void main() {
   int ring = gl_VertexID / (SECTORS + 1);
   int sector = gl_VertexID - ring * (SECTORS + 1);
-  float share = float(ring) / float(RINGS);
-  float angle = cap.x * (exp(cap.y * share) - 1.0) / (exp(cap.y) - 1.0);
+  float angle = ring_angle(float(ring));
   float turn = cap.z * (2.0 * float(sector) / float(SECTORS) - 1.0);
   vec3 up = normalize(view.eye_km.xyz);
   vec3 out_from_axis = ahead * cos(turn) + cross(up, ahead) * sin(turn);
   float radius_m = clouds.layer.x * 1e3;
+  float across = 0.5 * (ring_angle(float(ring) + 1.0) - angle);
+  float along = sin(angle) * cap.z / float(SECTORS);
+  float lift_m = 0.5 * radius_m * (across * across + along * along);
   float half_sine = sin(0.5 * angle);
-  vec3 round_m = out_from_axis * (radius_m * sin(angle)) - up * (clouds.layer.z + 2.0 * radius_m * half_sine * half_sine);
+  vec3 round_m = out_from_axis * ((radius_m + lift_m) * sin(angle)) -
+                 up * (clouds.layer.z - lift_m + 2.0 * (radius_m + lift_m) * half_sine * half_sine);
   vec3 relative = round_m / view.rounding.xxy;
   gl_Position = view.clip_from_relative * vec4(relative, 1.0);
 
