@@ -15,6 +15,7 @@ namespace {
 constexpr int kCapSides = 64;  ///< of the polygon around a disc of the sky
 constexpr float kOutside =
     1.05f;  ///< radii of the air: from nearer the disc of air would be as good as the screen
+constexpr float kHighestAir = 100.0f;  ///< km: of the plain air and of any that takes its place
 constexpr float kSunRadius = 0.0047f;  ///< radians, rounded up: sky.frag draws the disc's edge
 
 gl::Program program_of(const char* fragment_shader, int steps, const EffectShaders& effects) {
@@ -68,7 +69,7 @@ void Sky::draw(const ViewBlock& view, int active) const {
 
   const glm::vec3 eye(view.eye_km);
   const float distance = glm::length(eye);
-  const float top = view.eye_km.w + air_top_km();
+  const float top = view.eye_km.w + kHighestAir;
   if (map_program_ && distance <= kOutside * top) {
     draw_cap(glm::vec4(0.0f));
   } else {
