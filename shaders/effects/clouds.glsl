@@ -76,7 +76,7 @@ CloudHere cloud_at(vec3 up_of_place, float footprint_km) {
     fine_rise += share * tiles * kDetailRange * dot(here.gb * 2.0 - 1.0, change);
   }
 
-  float rest = (potential - clouds.cover.x) * clouds.cover.y;
+  float rest = (potential - clouds.cover.x) * clouds.cover.y * (1.0 + 0.5 * near);  // near by edges are seen to be sharp
   float dense = clamp(rest, 0.0, 1.0);
   CloudHere cloud;
   cloud.depth = clouds.cover.z * dense * dense;
