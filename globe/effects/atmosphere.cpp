@@ -5,6 +5,7 @@
 
 #include "globe/effects/atmosphere_tables.h"
 #include "globe/effects/entry.h"
+#include "globe/effects/uniform_block.h"
 #include "globe/gl/buffer.h"
 #include "globe/gl/texture.h"
 
@@ -52,7 +53,7 @@ AtmosphereParameters read_atmosphere(scene::Fields& fields) {
 class Atmosphere final : public render::Effect {
  public:
   Atmosphere(const AtmosphereParameters& parameters, const planet::Surface& surface)
-      : parameters_(parameters), block_(sizeof(AirBlock)) {
+      : parameters_(parameters) {
     if (!render::has_air(surface.info()))
       throw Refused{"the planet has no air", "leave the effect out, or take a planet with air"};
     parameters_.model.ground_km = 1e-3 * surface.ellipsoid().mean_radius();
@@ -86,22 +87,24 @@ class Atmosphere final : public render::Effect {
       texture->set_filter(GL_LINEAR, GL_LINEAR);
       texture->set_wrap(GL_CLAMP_TO_EDGE);
     }
-    AirBlock block = air_block(parameters_.model);
-    block.sizes = glm::vec4(tables.transmittance_size, tables.moments_size);
-    block_.upload(0, &block, sizeof(block));
+    air_ = air_block(parameters_.model);
+    air_.sizes = glm::vec4(tables.transmittance_size, tables.moments_size);
   }
 
   void prepare(const render::EffectView&, const render::Bindings& bindings) override {
-    block_.bind_base(GL_UNIFORM_BUFFER, bindings.block);
+    block_.bind(air_, bindings.block);
     transmittance_.bind(bindings.unit);
     moments_.bind(bindings.unit + 1);
   }
 
-  std::size_t gpu_bytes() const override { return block_.size() + transmittance_.bytes() + moments_.bytes(); }
+  std::size_t gpu_bytes() const override {
+    return block_.bytes() + transmittance_.bytes() + moments_.bytes();
+  }
 
  private:
   AtmosphereParameters parameters_;
-  gl::Buffer block_;
+  AirBlock air_;
+  UniformBlock<AirBlock> block_;
   gl::Texture transmittance_, moments_;
 };
 

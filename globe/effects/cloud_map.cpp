@@ -61,8 +61,8 @@ std::vector<Whirl> whirls_of(std::uint32_t seed) {
     const double narrowness = 2.0 / (radius * radius);
     // Low pressure turns against the sun in the north; a pattern is wound the other way to trail behind.
     const double turn = -side * (tropical ? 5.5 : 2.6 + 2.2 * random(3));
-    whirls.push_back({geo::normal_from_degrees(latitude, 360.0 * random(4)), turn, narrowness,
-                      1.0 - 7.0 / narrowness});
+    whirls.push_back(
+        {geo::normal_from_degrees(latitude, 360.0 * random(4)), turn, narrowness, 1.0 - 7.0 / narrowness});
   }
   return whirls;
 }
@@ -189,7 +189,9 @@ double repeating_noise(std::uint32_t seed, double x, double y, int period) {
 }  // namespace
 
 float& CloudCover::at(int face, int column, int row) { return values[index_of(side, face, column, row)]; }
-float CloudCover::at(int face, int column, int row) const { return values[index_of(side, face, column, row)]; }
+float CloudCover::at(int face, int column, int row) const {
+  return values[index_of(side, face, column, row)];
+}
 
 float CloudCover::at(const dvec3& direction) const {
   const CubePlace place = cube_place(direction, side);
@@ -212,7 +214,8 @@ dvec3 cube_direction(int face, double column, double row, int side) {
 
 CloudCover made_up_cover(std::uint32_t seed, int side) {
   using planet::kLanes;
-  CloudCover cover{side, std::vector<float>(6 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side))};
+  CloudCover cover{side,
+                   std::vector<float>(6 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side))};
   const std::vector<Whirl> whirls = whirls_of(seed);
   for_each_row(side, [&](int face, int row) {
     for (int first = 0; first < side; first += static_cast<int>(kLanes)) {
@@ -230,7 +233,8 @@ CloudCover made_up_cover(std::uint32_t seed, int side) {
       planet::LanePlaces plain{};
       for (std::size_t k = 0; k < kLanes; ++k) {
         // Winds blow along the parallels more than across.
-        const dvec3 warp(static_cast<double>(x[k]), static_cast<double>(y[k]), 0.5 * static_cast<double>(z[k]));
+        const dvec3 warp(static_cast<double>(x[k]), static_cast<double>(y[k]),
+                         0.5 * static_cast<double>(z[k]));
         const dvec3 p = places.get(k) + 0.16 * warp;
         streaked.set(k, dvec3(p.x, p.y, 1.9 * p.z));
         const int column = std::min(first + static_cast<int>(k), side - 1);
@@ -249,7 +253,8 @@ CloudCover made_up_cover(std::uint32_t seed, int side) {
 }
 
 CloudCover cover_of(const LatLongImage& image, int side) {
-  CloudCover cover{side, std::vector<float>(6 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side))};
+  CloudCover cover{side,
+                   std::vector<float>(6 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side))};
   for_each_row(side, [&](int face, int row) {
     for (int column = 0; column < side; ++column) {
       const geo::Geodetic place = geo::degrees_from_normal(cube_direction(face, column, row, side));
@@ -277,7 +282,8 @@ std::vector<std::vector<std::uint8_t>> cloud_texels(const CloudCover& cover) {
 
 std::vector<std::uint8_t> cloud_detail(std::uint32_t seed, int side) {
   constexpr int kOctaves = 6, kCells = 9;
-  CloudCover square{side, std::vector<float>(static_cast<std::size_t>(side) * static_cast<std::size_t>(side))};
+  CloudCover square{side,
+                    std::vector<float>(static_cast<std::size_t>(side) * static_cast<std::size_t>(side))};
   oneapi::tbb::parallel_for(0, side, [&](int row) {
     for (int column = 0; column < side; ++column) {
       double sum = 0.0, weight = 1.0;

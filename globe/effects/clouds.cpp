@@ -11,6 +11,7 @@
 
 #include "globe/effects/cloud_map.h"
 #include "globe/effects/entry.h"
+#include "globe/effects/uniform_block.h"
 #include "globe/gl/buffer.h"
 #include "globe/gl/program.h"
 #include "globe/gl/texture.h"
@@ -24,7 +25,7 @@ constexpr int kRings = 48, kSectors = 96;  ///< of the layer's mesh
 constexpr int kMadeUpSide = 1024;          ///< texels of a face of the cover: 12 km and less on the Earth
 constexpr int kDetailSide = 512;
 constexpr double kCoarseTile_m = 88e3, kFineTile_m = 8e3;  ///< of the detail near by
-constexpr double kDepth = 16;            ///< optical, of the thickest cloud
+constexpr double kDepth = 16;                              ///< optical, of the thickest cloud
 constexpr double kSunAway = -0.12;       ///< cosine of its zenith angle from which no shadow is cast
 constexpr double kSmallest = 1.0 / 256;  ///< share of light taken, and part of a picture's height, that show
 constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -73,9 +74,9 @@ double view_angle(const render::Camera& camera) {
 
 /// An eye over the sphere of the clouds and that of the ground, in round space, where the ellipsoid is one.
 struct Stand {
-  glm::dvec3 up;      ///< unit
-  glm::dvec3 ahead;   ///< the camera's axis, unit
-  double eye_m;       ///< from the centre, as the next two
+  glm::dvec3 up;     ///< unit
+  glm::dvec3 ahead;  ///< the camera's axis, unit
+  double eye_m;      ///< from the centre, as the next two
   double layer_m;
   double ground_m;
 
@@ -88,14 +89,14 @@ Stand stand_of(const render::EffectView& view, double altitude_m) {
   const glm::dvec3 rounding(radius / ellipsoid.a, radius / ellipsoid.a, radius / ellipsoid.b());
   const glm::dvec3 eye = view.camera.position * rounding;
   const double distance = glm::length(eye);
-  return {eye / distance, glm::normalize(view.camera.forward * rounding), distance, radius + altitude_m, radius};
+  return {eye / distance, glm::normalize(view.camera.forward * rounding), distance, radius + altitude_m,
+          radius};
 }
 
 /// A layer of clouds, its shadows, and the mist inside it.
 class Clouds final : public render::Effect {
  public:
-  Clouds(const CloudsParameters& parameters, const planet::Surface& surface)
-      : parameters_(parameters), block_(sizeof(CloudsBlock)), array_(gl::VertexArray::create()) {
+  Clouds(const CloudsParameters& parameters, const planet::Surface& surface) : parameters_(parameters) {
     if (parameters.image) image_ = read_lat_long_image(*parameters.image);
     equator_m_ = surface.ellipsoid().a;
   }
@@ -117,12 +118,14 @@ class Clouds final : public render::Effect {
     const Stand stand = stand_of(view, parameters_.altitude_m);
     const double across = 2.0 * stand.layer_m / stand.eye_m;
     if (across < kSmallest * view.camera.tan_y()) return {false, "the planet is too small to see them"};
-    if (sees_layer(view, stand)) return {true, stand.over_layer_m() > 0.0 ? "seen from above" : "seen from below"};
+    if (sees_layer(view, stand))
+      return {true, stand.over_layer_m() > 0.0 ? "seen from above" : "seen from below"};
     if (casts_shadows(view)) return {true, "their shadows fall on the ground in view"};
     return {false, "out of view"};
   }
 
   void compile(const render::EffectHost& host) override {
+    array_ = gl::VertexArray::create();
     gl::ProgramSources sources;
     sources.files = {"effects/clouds_layer.vert", "effects/clouds_layer.frag"};
     sources.defines = {"RINGS " + std::to_string(kRings), "SECTORS " + std::to_string(kSectors),
@@ -156,13 +159,13 @@ class Clouds final : public render::Effect {
     const double gain = given ? 1.0 / 0.85 : 1.0 / 0.7;
     const CloudsBlock block{
         glm::vec4(parameters_.color, static_cast<float>(parameters_.opacity)),
-        glm::vec4(glm::dvec4(stand.layer_m * 1e-3, stand.ground_m * 1e-3, stand.over_layer_m(), half_thickness_m)),
+        glm::vec4(
+            glm::dvec4(stand.layer_m * 1e-3, stand.ground_m * 1e-3, stand.over_layer_m(), half_thickness_m)),
         glm::vec4(glm::dvec4(begins, gain, kDepth, pixel)),
         glm::vec4(glm::dvec4(std::cos(angle), std::sin(angle), inside ? 1.0 : 0.0, cover_.width())),
         glm::vec4(glm::dvec4(stand.ground_m / kCoarseTile_m, stand.ground_m / kFineTile_m, given ? 0.2 : 0.34,
                              given ? 0.06 : 0.11))};
-    block_.upload(0, &block, sizeof(block));
-    block_.bind_base(GL_UNIFORM_BUFFER, bindings.block);
+    block_.bind(block, bindings.block);
     cover_.bind(bindings.unit);
     detail_.bind(bindings.unit + 1);
   }
@@ -184,9 +187,10 @@ class Clouds final : public render::Effect {
                                  ? std::min(std::asin(std::sin(wide) / std::sin(apart)), std::numbers::pi)
                                  : std::numbers::pi;
     const glm::dvec3 level = stand.ahead - stand.up * glm::dot(stand.ahead, stand.up);
-    const glm::dvec3 ahead = glm::length(level) > 1e-6
-                                 ? glm::normalize(level)
-                                 : glm::normalize(glm::cross(stand.up, glm::dvec3(stand.up.y, stand.up.z, stand.up.x)));
+    const glm::dvec3 ahead =
+        glm::length(level) > 1e-6
+            ? glm::normalize(level)
+            : glm::normalize(glm::cross(stand.up, glm::dvec3(stand.up.y, stand.up.z, stand.up.x)));
 
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
@@ -215,7 +219,7 @@ class Clouds final : public render::Effect {
   }
 
   std::size_t gpu_bytes() const override {
-    return block_.size() + indices_.size() + cover_.bytes() + detail_.bytes();
+    return block_.bytes() + indices_.size() + cover_.bytes() + detail_.bytes();
   }
 
  private:
@@ -246,7 +250,8 @@ class Clouds final : public render::Effect {
       for (int face = 0; face < 6; ++face) {
         const std::size_t first = 4 * static_cast<std::size_t>(face) * static_cast<std::size_t>(texels) *
                                   static_cast<std::size_t>(texels);
-        cover_.upload({0, 0, texels, texels, face, level}, levels[static_cast<std::size_t>(level)].data() + first);
+        cover_.upload({0, 0, texels, texels, face, level},
+                      levels[static_cast<std::size_t>(level)].data() + first);
       }
     }
     cover_.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
@@ -261,7 +266,7 @@ class Clouds final : public render::Effect {
   CloudsParameters parameters_;
   double equator_m_;
   std::optional<LatLongImage> image_;  ///< without its pixels once the texture is made
-  gl::Buffer block_;
+  UniformBlock<CloudsBlock> block_;
   gl::VertexArray array_;
   gl::Buffer indices_;
   gl::Program program_;

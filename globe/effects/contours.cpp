@@ -1,12 +1,16 @@
-#include <epoxy/gl.h>
-
 #include <glm/vec4.hpp>
 
 #include "globe/effects/entry.h"
-#include "globe/gl/buffer.h"
+#include "globe/effects/uniform_block.h"
 
 namespace globe::effects {
 namespace {
+
+/// Mirrors `Contours` in shaders/effects/contours.glsl (std140).
+struct ContourBlock {
+  glm::vec4 color;
+  glm::vec4 heights;
+};
 
 struct ContourParameters {
   glm::vec3 color;  ///< linear
@@ -40,19 +44,16 @@ class Contours final : public render::Effect {
     return {true, "ground is in view"};
   }
 
-  void compile(const render::EffectHost& /*host*/) override {
-    const glm::vec4 block[2]{glm::vec4(parameters_.color, static_cast<float>(parameters_.width_px)),
-                             glm::vec4(static_cast<float>(parameters_.every_m))};
-    block_ = gl::Buffer(sizeof(block), block);
-  }
   void prepare(const render::EffectView& /*view*/, const render::Bindings& bindings) override {
-    block_.bind_base(GL_UNIFORM_BUFFER, bindings.block);
+    block_.bind({glm::vec4(parameters_.color, static_cast<float>(parameters_.width_px)),
+                 glm::vec4(static_cast<float>(parameters_.every_m))},
+                bindings.block);
   }
-  std::size_t gpu_bytes() const override { return block_.size(); }
+  std::size_t gpu_bytes() const override { return block_.bytes(); }
 
  private:
   ContourParameters parameters_;
-  gl::Buffer block_;
+  UniformBlock<ContourBlock> block_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "globe/effects/entry.h"
 #include "globe/effects/lat_long_image.h"
 #include "globe/effects/planet_texture.h"
+#include "globe/effects/uniform_block.h"
 #include "globe/gl/buffer.h"
 #include "globe/gl/texture.h"
 
@@ -15,7 +16,8 @@ namespace globe::effects {
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;
-constexpr double kLit = -1.0 * kDegree, kFull = -9.0 * kDegree;  ///< heights of the sun between which they come on
+constexpr double kLit = -1.0 * kDegree,
+                 kFull = -9.0 * kDegree;  ///< heights of the sun between which they come on
 
 struct NightLightsParameters {
   std::filesystem::path image;
@@ -38,7 +40,7 @@ struct NightLightsBlock {
 class NightLights final : public render::Effect {
  public:
   NightLights(const NightLightsParameters& parameters, const planet::Surface&)
-      : parameters_(parameters), image_(read_lat_long_image(parameters.image)), block_(sizeof(NightLightsBlock)) {}
+      : parameters_(parameters), image_(read_lat_long_image(parameters.image)) {}
 
   render::EffectShader shader() const override {
     render::EffectShader shader;
@@ -54,7 +56,8 @@ class NightLights final : public render::Effect {
     // The darkest ground that can be seen lies away from the sun, as far as the horizon.
     const double radius = view.surface.ellipsoid().mean_radius();
     const double to_horizon = std::acos(std::min(radius / (radius + std::max(view.height_m, 0.0)), 1.0));
-    const double sun = std::asin(std::clamp(glm::dot(glm::normalize(view.camera.position), view.sun), -1.0, 1.0));
+    const double sun =
+        std::asin(std::clamp(glm::dot(glm::normalize(view.camera.position), view.sun), -1.0, 1.0));
     constexpr double kBeyond = 3.0 * kDegree;  // mountains behind the horizon
     if (sun - to_horizon - kBeyond > kLit) return {false, "all ground in view is in the light"};
     return {true, "some ground in view may be in the dark"};
@@ -62,19 +65,18 @@ class NightLights final : public render::Effect {
 
   void prepare(const render::EffectView&, const render::Bindings& bindings) override {
     if (lamps_.id() == 0) lamps_ = planet_texture(image_, GL_SRGB8_ALPHA8);
-    const NightLightsBlock block{glm::vec4(glm::dvec4(parameters_.intensity, parameters_.threshold, std::sin(kLit),
-                                                      std::sin(kFull)))};
-    block_.upload(0, &block, sizeof(block));
-    block_.bind_base(GL_UNIFORM_BUFFER, bindings.block);
+    const NightLightsBlock block{
+        glm::vec4(glm::dvec4(parameters_.intensity, parameters_.threshold, std::sin(kLit), std::sin(kFull)))};
+    block_.bind(block, bindings.block);
     lamps_.bind(bindings.unit);
   }
 
-  std::size_t gpu_bytes() const override { return block_.size() + lamps_.bytes(); }
+  std::size_t gpu_bytes() const override { return block_.bytes() + lamps_.bytes(); }
 
  private:
   NightLightsParameters parameters_;
   LatLongImage image_;  ///< without its pixels once the texture is made
-  gl::Buffer block_;
+  UniformBlock<NightLightsBlock> block_;
   gl::Texture lamps_;
 };
 

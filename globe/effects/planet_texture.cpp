@@ -11,7 +11,8 @@ gl::Texture planet_texture(LatLongImage& image, GLenum format) {
   const auto channels = static_cast<std::size_t>(image.channels);
   std::vector<std::uint8_t> rgba(pixels * 4, 255);
   for (std::size_t k = 0; k < pixels; ++k) {
-    for (std::size_t c = 0; c < 3; ++c) rgba[4 * k + c] = image.pixels[k * channels + (channels == 1 ? 0 : c)];
+    for (std::size_t c = 0; c < 3; ++c)
+      rgba[4 * k + c] = image.pixels[k * channels + (channels == 1 ? 0 : c)];
   }
   image.pixels = {};
   const int levels = std::bit_width(static_cast<unsigned>(std::min(image.width, image.height)));

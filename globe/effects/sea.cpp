@@ -8,6 +8,7 @@
 #include <string>
 
 #include "globe/effects/entry.h"
+#include "globe/effects/uniform_block.h"
 #include "globe/effects/waves.h"
 #include "globe/gl/buffer.h"
 #include "globe/gl/program.h"
@@ -111,9 +112,7 @@ double breaking_steepness(double wind_speed, const std::vector<Wave>& waves) {
 class SeaEffect final : public render::Effect {
  public:
   SeaEffect(const SeaParameters& parameters, const planet::Surface& surface)
-      : parameters_(parameters),
-        sea_(surface.ellipsoid(), parameters.reference, parameters.waves),
-        block_(sizeof(SeaBlock)) {
+      : parameters_(parameters), sea_(surface.ellipsoid(), parameters.reference, parameters.waves) {
     if (!surface.has_bare_floor())
       throw Refused{"the planet has no sea", "leave the effect out, or choose a planet like the Earth"};
     const double rest = slope_variance(parameters.wind_speed) - slope_variance(parameters.waves);
@@ -167,8 +166,7 @@ class SeaEffect final : public render::Effect {
       data_.along[k] = glm::vec4(glm::dvec4(local.along, number));
       data_.form[k] = glm::vec4(glm::dvec4(waves[k].amplitude_m, local.phase, local.cotangent, rest));
     }
-    block_.upload(0, &data_, sizeof(data_));
-    block_.bind_base(GL_UNIFORM_BUFFER, bindings.block);
+    block_.bind(data_, bindings.block);
   }
 
   void draw(const render::EffectView& view) override {
@@ -184,7 +182,7 @@ class SeaEffect final : public render::Effect {
     glDisable(GL_CULL_FACE);
   }
 
-  std::size_t gpu_bytes() const override { return block_.size(); }
+  std::size_t gpu_bytes() const override { return block_.bytes(); }
 
  private:
   static bool is_under_water(const render::EffectView& view) {
@@ -210,7 +208,7 @@ class SeaEffect final : public render::Effect {
   SeaParameters parameters_;
   Sea sea_;
   SeaBlock data_;
-  gl::Buffer block_;
+  UniformBlock<SeaBlock> block_;
   std::array<gl::Program, 3> programs_;  ///< by render::Kind
 };
 

@@ -19,7 +19,7 @@
 namespace globe::effects {
 namespace {
 
-constexpr double kBrightSun = -1.0, kDarkSun = -7.0;     ///< degrees: stars come out as it goes down
+constexpr double kBrightSun = -1.0, kDarkSun = -7.0;      ///< degrees: stars come out as it goes down
 constexpr double kThinAir = 20'000.0, kSpace = 90'000.0;  ///< metres: by day they come out going up
 constexpr float kRadius = 3.0f;                           ///< pixels, of a star's image
 constexpr float kFirstMagnitude = 1.6f;  ///< light in the middle of the image of a star of magnitude 1

@@ -3,6 +3,7 @@
 #include <glm/vec4.hpp>
 
 #include "globe/effects/entry.h"
+#include "globe/effects/uniform_block.h"
 #include "globe/gl/buffer.h"
 
 namespace globe::effects {
@@ -36,7 +37,7 @@ struct UnderwaterBlock {
 class Underwater final : public render::Effect {
  public:
   Underwater(const UnderwaterParameters& parameters, const planet::Surface& surface)
-      : parameters_(parameters), block_(sizeof(UnderwaterBlock)) {
+      : parameters_(parameters) {
     if (!surface.has_bare_floor())
       throw Refused{"there is no sea to be under: it needs effects.sea",
                     "add [effects.sea], or leave it out"};
@@ -61,15 +62,14 @@ class Underwater final : public render::Effect {
     const UnderwaterBlock block{glm::vec4(parameters_.color, static_cast<float>(depth)),
                                 glm::vec4(kTaken + murk, 0.0f),
                                 glm::vec4(0.6f * kTaken + kDaylight * murk, 0.0f)};
-    block_.upload(0, &block, sizeof(block));
-    block_.bind_base(GL_UNIFORM_BUFFER, bindings.block);
+    block_.bind(block, bindings.block);
   }
 
-  std::size_t gpu_bytes() const override { return block_.size(); }
+  std::size_t gpu_bytes() const override { return block_.bytes(); }
 
  private:
   UnderwaterParameters parameters_;
-  gl::Buffer block_;
+  UniformBlock<UnderwaterBlock> block_;
 };
 
 }  // namespace
