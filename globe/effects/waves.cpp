@@ -42,8 +42,9 @@ double slope_variance(const std::vector<Wave>& waves) {
 
 std::vector<Wave> wind_waves(double wind_speed, double from_deg) {
   std::vector<Wave> waves;
+  if (wind_speed <= 0.0) return waves;
   const double last = angular_frequency(kShortest);
-  const double peak = wind_speed > 0.0 ? 0.877 * kGravity / wind_speed : last;
+  const double peak = 0.877 * kGravity / wind_speed;
   const double first = kLongest * peak;
   if (first >= 0.9 * last) return waves;
   const double step = std::log(last / first) / kBands;

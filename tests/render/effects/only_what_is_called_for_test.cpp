@@ -1,6 +1,7 @@
 // Effects that a scene does not name cost nothing, and those it names cost nothing where they are not seen:
 // counted in OpenGL calls and objects, and compared byte by byte.
 
+#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
@@ -21,38 +22,42 @@ class CallCount {
  public:
   CallCount() {
     current = this;
-    wrap(epoxy_glCreateProgram, create_program, [] { return current->real_create_program(); });
-    wrap(epoxy_glCreateTextures, create_textures, [](GLenum target, GLsizei n, GLuint* names) {
-      current->counts["textures"] += n;
-      current->create_textures(target, n, names);
-    });
-    wrap(epoxy_glCreateBuffers, create_buffers, [](GLsizei n, GLuint* names) {
+    wrap("glCreateProgram", epoxy_glCreateProgram, create_program,
+         [] { return current->real_create_program(); });
+    wrap("glCreateTextures", epoxy_glCreateTextures, create_textures,
+         [](GLenum target, GLsizei n, GLuint* names) {
+           current->counts["textures"] += n;
+           current->create_textures(target, n, names);
+         });
+    wrap("glCreateBuffers", epoxy_glCreateBuffers, create_buffers, [](GLsizei n, GLuint* names) {
       current->counts["buffers"] += n;
       current->create_buffers(n, names);
     });
-    wrap(epoxy_glCreateFramebuffers, create_framebuffers, [](GLsizei n, GLuint* names) {
-      current->counts["framebuffers"] += n;
-      current->create_framebuffers(n, names);
-    });
-    wrap(epoxy_glNamedBufferSubData, buffer_data,
+    wrap("glCreateFramebuffers", epoxy_glCreateFramebuffers, create_framebuffers,
+         [](GLsizei n, GLuint* names) {
+           current->counts["framebuffers"] += n;
+           current->create_framebuffers(n, names);
+         });
+    wrap("glNamedBufferSubData", epoxy_glNamedBufferSubData, buffer_data,
          [](GLuint name, GLintptr offset, GLsizeiptr size, const void* data) {
            ++current->counts["buffer uploads"];
            current->buffer_data(name, offset, size, data);
          });
-    wrap(epoxy_glDrawArrays, draw_arrays, [](GLenum mode, GLint first, GLsizei count) {
+    wrap("glDrawArrays", epoxy_glDrawArrays, draw_arrays, [](GLenum mode, GLint first, GLsizei count) {
       ++current->counts["draws"];
       current->draw_arrays(mode, first, count);
     });
-    wrap(epoxy_glDrawArraysInstanced, draw_instanced, [](GLenum mode, GLint first, GLsizei count, GLsizei n) {
-      ++current->counts["draws"];
-      current->draw_instanced(mode, first, count, n);
-    });
-    wrap(epoxy_glDrawElementsInstancedBaseInstance, draw_elements,
+    wrap("glDrawArraysInstanced", epoxy_glDrawArraysInstanced, draw_instanced,
+         [](GLenum mode, GLint first, GLsizei count, GLsizei n) {
+           ++current->counts["draws"];
+           current->draw_instanced(mode, first, count, n);
+         });
+    wrap("glDrawElementsInstancedBaseInstance", epoxy_glDrawElementsInstancedBaseInstance, draw_elements,
          [](GLenum mode, GLsizei count, GLenum type, const void* indices, GLsizei n, GLuint base) {
            ++current->counts["draws"];
            current->draw_elements(mode, count, type, indices, n, base);
          });
-    wrap(epoxy_glUseProgram, use_program, [](GLuint program) {
+    wrap("glUseProgram", epoxy_glUseProgram, use_program, [](GLuint program) {
       ++current->counts["programs used"];
       current->use_program(program);
     });
@@ -76,8 +81,10 @@ class CallCount {
 
  private:
   template <class Function, class Wrapper>
-  static void wrap(Function& function, Function& kept, Wrapper wrapper) {
-    kept = function;
+  static void wrap(const char* name, Function& function, Function& kept, Wrapper wrapper) {
+    // Not what epoxy's pointer holds: before its first call that looks the function up, and finds the
+    // wrapper.
+    kept = reinterpret_cast<Function>(eglGetProcAddress(name));
     function = wrapper;
   }
   GLuint real_create_program() {
