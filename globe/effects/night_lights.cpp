@@ -34,6 +34,7 @@ NightLightsParameters read_night_lights(scene::Fields& fields) {
 /// Mirrors `NightLights` in shaders/effects/night_lights.glsl (std140).
 struct NightLightsBlock {
   glm::vec4 lamps;
+  glm::vec4 view;
 };
 
 /// Lamps of towns, where the sun is down.
@@ -63,10 +64,12 @@ class NightLights final : public render::Effect {
     return {true, "some ground in view may be in the dark"};
   }
 
-  void prepare(const render::EffectView&, const render::Bindings& bindings) override {
+  void prepare(const render::EffectView& view, const render::Bindings& bindings) override {
     if (lamps_.id() == 0) lamps_ = planet_texture(image_, GL_SRGB8_ALPHA8);
+    const double pixel = 2.0 * view.camera.tan_y() / view.target.height();
     const NightLightsBlock block{
-        glm::vec4(glm::dvec4(parameters_.intensity, parameters_.threshold, std::sin(kLit), std::sin(kFull)))};
+        glm::vec4(glm::dvec4(parameters_.intensity, parameters_.threshold, std::sin(kLit), std::sin(kFull))),
+        glm::vec4(glm::dvec4(pixel, 0.0, 0.0, 0.0))};
     block_.bind(block, bindings.block);
     lamps_.bind(bindings.unit);
   }

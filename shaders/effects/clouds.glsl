@@ -117,8 +117,8 @@ vec3 cloud_light(CloudHere cloud, vec3 sunlight, vec3 skylight, float cos_sun, f
     float lit = (0.16 + 0.68 * facing) * (1.0 - 0.45 * passes) + 0.5 * relief * (1.0 - 0.5 * facing);
     light = sunlight * max(lit, 0.10 + 0.25 * facing) + skylight;
   } else {
-    float lit = 0.8 * (0.16 + 0.84 * facing) * passes * (1.0 + 0.4 * relief) + phase * exp(-0.6 * cloud.depth);
-    light = sunlight * lit + skylight * (0.45 + 0.55 * passes);
+    float lit = (0.10 + 0.45 * facing) * passes * (1.0 + 0.4 * relief) + phase * exp(-0.9 * cloud.depth);
+    light = sunlight * lit + skylight * (0.25 + 0.45 * passes);
   }
   return clouds.color.rgb * light;
 }

@@ -15,15 +15,17 @@ using globe::render::GlobeRenderer;
 
 constexpr int kSize = 384;
 constexpr int kMapWidth = 720;  // half degrees
-/// Of the one cloud: the corner of four white pixels.
+/// Of the one cloud: the corner of sixteen white pixels, tenths of degrees.
 constexpr double kLat = 5.0, kLon = 20.0;
 
 class Clouds : public GlTest {
  protected:
   std::string table(const std::string& keys) const {
-    const int column = static_cast<int>((kLon + 180.0) * 2.0), row = static_cast<int>((90.0 - kLat) * 2.0);
-    const auto file = effect_scene::write_map(folder_.path() / "cloud.png", kMapWidth,
-                                              {{column, row}, {column - 1, row}, {column, row - 1}, {column - 1, row - 1}});
+    std::vector<std::pair<int, int>> white;
+    for (int k = 0; k < 16; ++k)
+      white.emplace_back(static_cast<int>((kLon + 180.0) * 10.0) - 2 + k % 4,
+                         static_cast<int>((90.0 - kLat) * 10.0) - 2 + k / 4);
+    const auto file = effect_scene::write_map(folder_.path() / "cloud.png", 3600, white);
     return "[effects.clouds]\nimage = \"" + file.string() + "\"\n" + keys;
   }
 
@@ -49,7 +51,8 @@ TEST_F(Clouds, MoveEastwardAtTheirSpeed) {
   for (const double time_s : {0.0, kTime}) {
     const auto cloudy = effect_scene::picture(with, camera, sun, kSize, kSize, time_s);
     const double moved_deg = kSpeed * time_s / kWgs84.a * 180.0 / std::numbers::pi;
-    const glm::dvec2 expected = pixel_of(camera, ecef_from_geodetic(kWgs84, {kLat, kLon + moved_deg, kAltitude}));
+    const glm::dvec2 expected =
+        pixel_of(camera, ecef_from_geodetic(kWgs84, {kLat, kLon + moved_deg, kAltitude}));
     const glm::dvec2 seen = effect_scene::middle_of_difference(cloudy, clear, kSize, kSize);
     EXPECT_NEAR(seen.x, expected.x, 1.0) << time_s;
     EXPECT_NEAR(seen.y, expected.y, 1.0) << time_s;
@@ -109,6 +112,8 @@ class NightLights : public GlTest {
   tests::TemporaryFolder folder_;
 };
 
+class Lightmap : public NightLights {};
+
 TEST_F(NightLights, ShineWhereTheMapHasThemAtNightAlone) {
   const auto file = effect_scene::write_map(folder_.path() / "lamps.png", kMapWidth, {{410, 160}});
   const Geodetic town{90.0 - 160.5 / 2.0, 410.5 / 2.0 - 180.0, 0.0};
@@ -128,6 +133,30 @@ TEST_F(NightLights, ShineWhereTheMapHasThemAtNightAlone) {
   EXPECT_EQ(effect_scene::picture(with, camera, noon, kSize, kSize).rgba,
             effect_scene::picture(without, camera, noon, kSize, kSize).rgba);
   EXPECT_FALSE(with.effect_states().front().verdict.active);
+}
+
+TEST_F(Lightmap, TakesTheLightOfBlackGroundAlone) {
+  // White but for a square about a place.
+  const auto write = [&](const std::string& name, std::uint8_t square) {
+    std::vector<std::uint8_t> pixels(360 * 180, 255);
+    for (int row = 75; row < 105; ++row) {
+      for (int column = 165; column < 195; ++column)
+        pixels[static_cast<std::size_t>(row * 360 + column)] = square;
+    }
+    return effect_scene::write_pixels(folder_.path() / name, 360, pixels).string();
+  };
+  const std::string table = "[effects.lightmap]\nimage = \"";
+  GlobeRenderer black = effect_scene::renderer(table + write("black.png", 0) + "\"\n");
+  GlobeRenderer white = effect_scene::renderer(table + write("white.png", 255) + "\"\n");
+  GlobeRenderer without = effect_scene::renderer(table + write("none.png", 0) + "\"\nstrength = 0\n");
+  const glm::dvec3 sun(1.0, 0.0, 0.0);
+  const Camera inside = above(0.0, 0.0, 100e3), outside = above(0.0, 60.0, 100e3);
+  const auto plain = effect_scene::picture(without, inside, sun, 64, 64);
+  const auto dark = effect_scene::picture(black, inside, sun, 64, 64);
+  EXPECT_LT(dark.green(32, 32, 64), 0.8 * plain.green(32, 32, 64)) << "what is left is the air's";
+  EXPECT_EQ(effect_scene::picture(white, inside, sun, 64, 64).rgba, plain.rgba);
+  EXPECT_EQ(effect_scene::picture(black, outside, sun, 64, 64).rgba,
+            effect_scene::picture(without, outside, sun, 64, 64).rgba);
 }
 
 }  // namespace

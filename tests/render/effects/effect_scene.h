@@ -22,16 +22,23 @@ inline std::shared_ptr<const globe::planet::Surface> planet() {
   return surface;
 }
 
-/// A map of a planet, 8 bits a pixel, black but for some pixels (column, row).
-inline std::filesystem::path write_map(const std::filesystem::path& file, int width,
-                                       const std::vector<std::pair<int, int>>& white) {
-  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(width / 2), 0);
-  for (const auto& [column, row] : white)
-    pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)] = 255;
+/// A grey map of a planet, 8 bits a pixel.
+inline std::filesystem::path write_pixels(const std::filesystem::path& file, int width,
+                                          const std::vector<std::uint8_t>& pixels) {
   const auto output = OIIO::ImageOutput::create(file.string());
   output->open(file.string(), OIIO::ImageSpec(width, width / 2, 1, OIIO::TypeDesc::UINT8));
   output->write_image(OIIO::TypeDesc::UINT8, pixels.data());
   return file;
+}
+
+/// Black but for some pixels (column, row).
+inline std::filesystem::path write_map(const std::filesystem::path& file, int width,
+                                       const std::vector<std::pair<int, int>>& white) {
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(width / 2), 0);
+  for (const auto& [column, row] : white)
+    pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(column)] = 255;
+  return write_pixels(file, width, pixels);
 }
 
 /// A renderer of the built-in planet with the effects of a scene's tables.
@@ -49,7 +56,9 @@ struct Picture {
   std::vector<std::uint8_t> rgba;
 
   double green(int x, int y, int width) const {
-    return rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) + 1];
+    return rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(x)) +
+                1];
   }
 };
 

@@ -20,7 +20,8 @@ std::string refusal_of(const std::string& effect) {
 }
 
 TEST(BadEffects, CloudsNameFileLineAndKey) {
-  EXPECT_EQ(refusal_of("clouds]\ncoverage = -0.5\n").rfind("x/scene.toml:3: effects.clouds.coverage: -0.5 is not", 0),
+  EXPECT_EQ(refusal_of("clouds]\ncoverage = -0.5\n")
+                .rfind("x/scene.toml:3: effects.clouds.coverage: -0.5 is not", 0),
             0u);
   EXPECT_EQ(refusal_of("clouds]\nimage = \"none.jpg\"\n")
                 .rfind("x/scene.toml:3: effects.clouds.image: there is no file x/none.jpg", 0),
@@ -30,8 +31,13 @@ TEST(BadEffects, CloudsNameFileLineAndKey) {
 }
 
 TEST(BadEffects, NightLightsNeedAnImage) {
-  EXPECT_EQ(refusal_of("night_lights]\n").rfind("x/scene.toml:2: effects.night_lights: image is missing", 0), 0u);
+  EXPECT_EQ(refusal_of("night_lights]\n").rfind("x/scene.toml:2: effects.night_lights: image is missing", 0),
+            0u);
   EXPECT_NE(refusal_of("night_lights]\nimage = \"none.jpg\"\nintensity = -1\n"), "");
+}
+
+TEST(BadEffects, LightmapsNeedAnImage) {
+  EXPECT_EQ(refusal_of("lightmap]\n").rfind("x/scene.toml:2: effects.lightmap: image is missing", 0), 0u);
 }
 
 }  // namespace

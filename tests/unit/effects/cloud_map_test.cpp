@@ -32,13 +32,15 @@ TEST(CloudMap, FacesAgreeOnTheirBorders) {
   const CloudCover cover = made_up_cover(7, kSide);
   for (int face = 0; face < 6; ++face) {
     for (int k = 0; k < kSide; ++k) {
-      for (const auto& [column, row] : {std::pair(0, k), std::pair(kSide - 1, k), std::pair(k, 0), std::pair(k, kSide - 1)}) {
+      for (const auto& [column, row] :
+           {std::pair(0, k), std::pair(kSide - 1, k), std::pair(k, 0), std::pair(k, kSide - 1)}) {
         const glm::dvec3 inside = cube_direction(face, column, row, kSide);
         // A little over the edge, on the face beside.
         const int axis = face / 2;
         glm::dvec3 beside = inside;
         beside[axis] *= 1.0 - 1e-9;
-        EXPECT_NEAR(cover.at(beside), cover.at(face, column, row), 1e-4) << face << ' ' << column << ' ' << row;
+        EXPECT_NEAR(cover.at(beside), cover.at(face, column, row), 1e-4)
+            << face << ' ' << column << ' ' << row;
       }
     }
   }
@@ -77,7 +79,8 @@ TEST(CloudMap, GradientsAreThoseOfTheSphere) {
         const glm::dvec3 expected = 0.5 * (axis - d * glm::dot(d, axis));
         const std::uint8_t* texel = texels.data() + 4 * ((face * kSide + row) * kSide + column);
         for (int c = 0; c < 3; ++c)
-          EXPECT_NEAR((texel[c + 1] / 255.0 - 0.5) * 256.0, expected[c], kStep) << face << ' ' << column << ' ' << row;
+          EXPECT_NEAR((texel[c + 1] / 255.0 - 0.5) * 256.0, expected[c], kStep)
+              << face << ' ' << column << ' ' << row;
       }
     }
   }
