@@ -5,9 +5,9 @@ layout(binding = 3) uniform sampler2DArray water_of;
 #endif
 
 in Shading {
-  vec3 sunlight;
-  vec3 skylight;
-  vec3 haze;
+  centroid vec3 sunlight;
+  centroid vec3 skylight;
+  centroid vec3 haze;
 #ifdef SHADE_FINE
   vec2 texel;
 #endif
@@ -18,15 +18,15 @@ in Shading {
   float share;
 #endif
 #ifdef GLINT
-  float glint;
+  centroid float glint;
 #endif
 #ifdef EFFECTS
-  vec3 relative;
-  float height;
-  vec3 left;
+  centroid vec3 relative;
+  centroid float height;
+  centroid vec3 left;
 #endif
 #ifdef SEA
-  float depth;
+  centroid float depth;
 #endif
 } shading;
 flat in vec3 layers;  // fine, coarse, level

@@ -1,5 +1,7 @@
 // H25: the planet's limb stands where that of the ellipsoid does.
 
+#include <epoxy/gl.h>
+
 #include <array>
 
 #include "tests/hard/table.h"
@@ -97,6 +99,42 @@ TEST_F(GlTest, H25TheLimbOfPlanetsOfOtherShapesStandsWhereTheirEllipsoidsDoes) {
                  hard::figure(std::max(limb.worst, 0.0)) + " px");
     EXPECT_LE(limb.worst, kLimbError) << shape.name;
   }
+}
+
+// Where a pixel's middle lies outside the triangle that one of its samples is in, what is interpolated there
+// is not to be carried on beyond the triangle's edge: specks would stand on the limb.
+TEST_F(GlTest, FourSamplesAPixelLeaveNoSpecksOnTheLimb) {
+  const auto surface = views::builtin_planet();
+  views::RenderSettings settings;
+  settings.clipmap = globe::clipmap::Settings::for_detail(64);
+  views::GlobeRenderer renderer(surface, settings);
+  constexpr int kAcross = 640, kDown = 120, kFiner = 4;
+  const globe::gl::Framebuffer four(kAcross, kDown, {4, GL_RGBA8, GL_DEPTH_COMPONENT32F});
+  const globe::gl::Framebuffer fine(kFiner * kAcross, kFiner * kDown);
+  const Camera camera = globe::render::make_camera(surface->ellipsoid(), {20.0, -100.0, 350e3}, 300.0, -18.0,
+                                                   10.0, static_cast<double>(kAcross) / kDown);
+  const dvec3 sun = globe::geo::normal_from_degrees(0.0, -70.0);
+  renderer.draw(camera, sun, true, four);
+  const auto seen = four.read_rgba8();
+  renderer.draw(camera, sun, true, fine);
+  const auto truth = fine.read_rgba8();
+  int worst = 0;
+  for (int y = 0; y < kDown; ++y) {
+    for (int x = 0; x < kAcross; ++x) {
+      // Among all the colours that the pixel has in the finer picture, or its neighbours.
+      int least = 255, most = 0;
+      for (int v = std::max(kFiner * (y - 1), 0); v < std::min(kFiner * (y + 2), kFiner * kDown); ++v) {
+        for (int u = std::max(kFiner * (x - 1), 0); u < std::min(kFiner * (x + 2), kFiner * kAcross); ++u) {
+          const int red = truth[static_cast<std::size_t>(4 * (v * kFiner * kAcross + u))];
+          least = std::min(least, red);
+          most = std::max(most, red);
+        }
+      }
+      const int red = seen[static_cast<std::size_t>(4 * (y * kAcross + x))];
+      worst = std::max({worst, least - red, red - most});
+    }
+  }
+  EXPECT_LE(worst, 12) << "of 255, beyond the colours around";
 }
 
 }  // namespace
