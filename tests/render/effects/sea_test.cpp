@@ -77,7 +77,7 @@ TEST_F(GlTest, TheSeaAfterTwoSecondsIsTheSameAtTenAndAtSixtyFramesASecond) {
 TEST_F(GlTest, InlandTheSeaHasNothingToDo) {
   const Framebuffer target(kWidth, kHeight, {});
   GlobeRenderer renderer = renderer_with("[effects.sea]\n");
-  const Camera camera = camera_at(-43.42, -106.43, 9000.0, -90.0);
+  const Camera camera = camera_at(-43.42, -106.43, 3000.0, -90.0);
   picture(renderer, camera, 0.0, target);
   EXPECT_FALSE(renderer.effect_states()[0].verdict.active);
   EXPECT_EQ(renderer.effect_states()[0].verdict.why, "no water in view");
@@ -112,7 +112,7 @@ TEST_F(GlTest, TheCoastIsWhereHeightsAreZero) {
     std::vector<bool> wet(static_cast<std::size_t>(kWidth * kHeight)), drawn(wet.size());
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
-        const dvec3 ray = views::ray(camera, (2.0 * x + 1.0) / kWidth - 1.0, (2.0 * y + 1.0) / kHeight - 1.0);
+        const dvec3 ray = views::ray(camera, (2.0 * x + 1.0) / kWidth - 1.0, 1.0 - (2.0 * y + 1.0) / kHeight);
         const double away = globe::geo::ray_ellipsoid(globe::geo::kWgs84, 0.0, camera.position, ray);
         const auto place = globe::geo::geodetic_from_ecef(globe::geo::kWgs84, camera.position + ray * away);
         const std::size_t k = static_cast<std::size_t>(y * kWidth + x);

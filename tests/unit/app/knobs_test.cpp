@@ -37,7 +37,7 @@ const Words kNoKnobs{"--help", "--version",
                      "--crs", "--nodata", "--scale", "--offset", "--units", "--rim",
                      // where it goes, and how it is written
                      "--output", "--overwrite", "--quiet", "--progress", "--json", "--csv", "--geojson",
-                     "--strict", "--precision", "--title", "--stats", "--contact-sheet",
+                     "--strict", "--precision", "--title", "--stats", "--trace", "--contact-sheet",
                      // what it may use: the same bytes with more or less
                      "--memory", "--threads", "--jobs", "--job", "--device", "--wait", "--budget"};
 

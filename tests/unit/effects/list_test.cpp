@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "globe/effects/bright_stars.h"
@@ -117,6 +120,27 @@ TEST(BrightStars, HoldTheWellKnownOnes) {
     EXPECT_NEAR(seen.declination_deg, star.dec, 2e-3);
     EXPECT_NEAR(seen.magnitude, star.magnitude, 0.05);
   }
+}
+
+std::string text_of(const std::string& name) {
+  std::ifstream file(std::string(GLOBE_SOURCE_DIR) + "/" + name);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The README shows how an effect is added by one that there is.
+TEST(EffectList, TheReadmesExampleIsTheFilesThatAreBuilt) {
+  const std::string readme = text_of("README.md");
+  std::string code = text_of("globe/effects/contours.cpp");
+  code = code.substr(code.find("/// Mirrors `Contours`"));
+  for (const char* left_out : {"}  // namespace globe::effects\n", "}  // namespace\n\n"}) {
+    const std::size_t at = code.find(left_out);
+    ASSERT_NE(at, std::string::npos);
+    code.erase(at, std::string(left_out).size());
+  }
+  code.erase(code.find_last_not_of('\n') + 1);
+  EXPECT_NE(readme.find("```cpp\n" + code + "\n```"), std::string::npos);
+  EXPECT_NE(readme.find("```glsl\n" + text_of("shaders/effects/contours.glsl") + "```"), std::string::npos);
+  EXPECT_LT(std::count(code.begin(), code.end(), '\n'), 80);
 }
 
 }  // namespace
