@@ -43,8 +43,8 @@ Study study_of(const std::string& name, const std::string& title, const std::str
       "atmosphere." + name,
       title,
       "",
-      "light scattered once integrated in double, light scattered again by Monte Carlo (95 % within 0.8 %, "
-      "2 % where next to none is)",
+      "light scattered once integrated in double, light scattered again by Monte Carlo (95 % within about "
+      "1 %, in twilight and at night within as much as 40 %)",
       "50 looks and more from 2 m to 20,000 km up, suns from 60 degrees above the horizon to 60 below, dawn, "
       "the limb and the ground from above among them",
       "% of the light, the worst channel",

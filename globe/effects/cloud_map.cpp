@@ -280,6 +280,19 @@ std::vector<std::vector<std::uint8_t>> cloud_texels(const CloudCover& cover) {
   }
 }
 
+double cover_at(const std::vector<std::uint8_t>& texels, int side, const glm::dvec3& direction) {
+  const CubePlace place = cube_place(direction, side);
+  const auto value = [&](int column, int row) {
+    return texels[4 * index_of(side, place.face, column, row)] / 255.0;
+  };
+  const int column = std::clamp(static_cast<int>(place.column), 0, side - 2);
+  const int row = std::clamp(static_cast<int>(place.row), 0, side - 2);
+  const double x = place.column - column, y = place.row - row;
+  const double low = value(column, row) * (1.0 - x) + value(column + 1, row) * x;
+  const double high = value(column, row + 1) * (1.0 - x) + value(column + 1, row + 1) * x;
+  return low * (1.0 - y) + high * y;
+}
+
 std::vector<std::uint8_t> cloud_detail(std::uint32_t seed, int side) {
   constexpr int kOctaves = 6, kCells = 9;
   CloudCover square{side,

@@ -39,6 +39,9 @@ CloudCover cover_of(const LatLongImage& image, int side);
 /// its gradient by radians in `kGradientRange` (shaders/effects/clouds.glsl), in the axes of the planet.
 std::vector<std::vector<std::uint8_t>> cloud_texels(const CloudCover& cover);
 
+/// The cover of a direction by the texels of one level, bilinear.
+double cover_at(const std::vector<std::uint8_t>& texels, int side, const glm::dvec3& direction);
+
 /// A square of heaped clouds that repeats: `side`² texels of RGBA, the cover from -1 to 1 of mean 0, and its
 /// gradient by the square's side in `kDetailRange` along columns and rows.
 std::vector<std::uint8_t> cloud_detail(std::uint32_t seed, int side);

@@ -1,6 +1,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
@@ -16,7 +17,9 @@
 #include "globe/gl/program.h"
 #include "globe/gl/texture.h"
 #include "globe/gl/vertex_array.h"
+#include "globe/render/air.h"
 #include "globe/render/effect_shaders.h"
+#include "globe/render/view_block.h"
 
 namespace globe::effects {
 namespace {
@@ -26,6 +29,7 @@ constexpr int kMadeUpSide = 1024;          ///< texels of a face of the cover: 1
 constexpr int kDetailSide = 512;
 constexpr double kCoarseTile_m = 88e3, kFineTile_m = 8e3;  ///< of the detail near by
 constexpr double kDepth = 16;                              ///< optical, of the thickest cloud
+constexpr int kMistLevel = 1;                              ///< of the cover, that tells how thick the mist is
 constexpr double kSunAway = -0.12;       ///< cosine of its zenith angle from which no shadow is cast
 constexpr double kSmallest = 1.0 / 256;  ///< share of light taken, and part of a picture's height, that show
 constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -54,13 +58,24 @@ CloudsParameters read_clouds(scene::Fields& fields) {
           fields.integer("seed", 0, std::numeric_limits<int>::max()).value_or(1)};
 }
 
+constexpr std::size_t kLooks = 4;  ///< at the detail, at most
+
+/// Mirrors `Detail` in shaders/effects/clouds.glsl.
+struct DetailBlock {
+  std::array<glm::vec4, 3> chart;
+  glm::vec4 sun;
+};
+
 /// Mirrors `Clouds` in shaders/effects/clouds.glsl (std140).
 struct CloudsBlock {
   glm::vec4 color;
   glm::vec4 layer;
   glm::vec4 cover;
   glm::vec4 turned;
-  glm::vec4 detail;
+  glm::vec4 sun;
+  glm::vec4 round_sun;
+  glm::vec4 mist;
+  std::array<DetailBlock, kLooks> detail;
 };
 
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
@@ -83,10 +98,43 @@ struct Stand {
   double over_layer_m() const { return eye_m - layer_m; }
 };
 
-Stand stand_of(const render::EffectView& view, double altitude_m) {
-  const geo::Ellipsoid& ellipsoid = view.surface.ellipsoid();
+/// Factors that make an ellipsoid a sphere of its mean radius.
+glm::dvec3 rounding_of(const geo::Ellipsoid& ellipsoid) {
   const double radius = ellipsoid.mean_radius();
-  const glm::dvec3 rounding(radius / ellipsoid.a, radius / ellipsoid.a, radius / ellipsoid.b());
+  return {radius / ellipsoid.a, radius / ellipsoid.a, radius / ellipsoid.b()};
+}
+
+/// A plane that touches the planet where an axis leaves it, with the detail laid on it, and how much of the
+/// detail is that plane's.
+struct Chart {
+  glm::dmat3 axes;  ///< normal, columns, rows
+  double share;
+};
+
+/// The charts for an eye above a direction of the cover's frame: one, or two by the border of their realms,
+/// where one gives way to the other.
+std::vector<Chart> charts_at(const glm::dvec3& up) {
+  constexpr double kBorder = 0.12;  // in which they mix, of the larger component
+  std::vector<Chart> charts;
+  const glm::dvec3 size = glm::abs(up);
+  const double largest = std::max({size.x, size.y, size.z});
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double share = std::clamp((size[axis] / largest - (1.0 - kBorder)) / kBorder, 0.0, 1.0);
+    if (share == 0.0 || charts.size() == kLooks / 2) continue;
+    glm::dmat3 axes(0.0);
+    axes[0][axis] = up[axis] < 0.0 ? -1.0 : 1.0;
+    axes[1][(axis + 1) % 3] = axes[2][(axis + 2) % 3] = 1.0;
+    charts.push_back({axes, share});
+    sum += share;
+  }
+  for (Chart& chart : charts) chart.share /= sum;
+  return charts;
+}
+
+Stand stand_of(const render::EffectView& view, double altitude_m) {
+  const glm::dvec3 rounding = rounding_of(view.surface.ellipsoid());
+  const double radius = view.surface.ellipsoid().mean_radius();
   const glm::dvec3 eye = view.camera.position * rounding;
   const double distance = glm::length(eye);
   return {eye / distance, glm::normalize(view.camera.forward * rounding), distance, radius + altitude_m,
@@ -147,26 +195,48 @@ class Clouds final : public render::Effect {
   }
 
   void prepare(const render::EffectView& view, const render::Bindings& bindings) override {
-    if (cover_.id() == 0) make_textures();
+    if (texture_.id() == 0) make_textures();
     const Stand stand = stand_of(view, parameters_.altitude_m);
-    const double half_thickness_m = 0.5 * parameters_.thickness_m;
-    const double angle = std::remainder(parameters_.speed_m_s * view.instant.time_s / equator_m_, kTurn);
-    const bool inside = std::abs(stand.over_layer_m()) < half_thickness_m;
     const double pixel = 2.0 * view.camera.tan_y() / view.target.height();
     const bool given = image_.has_value();
     // A picture's clear sky is not all black; made-up weather begins where its share of the sphere does.
     const double begins = given ? 1.15 - 2.0 * parameters_.coverage : 1.0 - parameters_.coverage;
     const double gain = given ? 1.0 / 0.85 : 1.0 / 0.7;
-    const CloudsBlock block{
-        glm::vec4(parameters_.color, static_cast<float>(parameters_.opacity)),
-        glm::vec4(
-            glm::dvec4(stand.layer_m * 1e-3, stand.ground_m * 1e-3, stand.over_layer_m(), half_thickness_m)),
-        glm::vec4(glm::dvec4(begins, gain, kDepth, pixel)),
-        glm::vec4(glm::dvec4(std::cos(angle), std::sin(angle), inside ? 1.0 : 0.0, cover_.width())),
-        glm::vec4(glm::dvec4(stand.ground_m / kCoarseTile_m, stand.ground_m / kFineTile_m, given ? 0.2 : 0.34,
-                             given ? 0.06 : 0.11))};
+    const double angle = std::remainder(parameters_.speed_m_s * view.instant.time_s / equator_m_, kTurn);
+    const double c = std::cos(angle), s = std::sin(angle);
+    const glm::dmat3 turn(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);  // from the world's axes to the cover's
+    CloudsBlock block{};
+    block.color = glm::vec4(parameters_.color, static_cast<float>(parameters_.opacity));
+    block.layer = glm::vec4(glm::dvec4(stand.layer_m * 1e-3, stand.ground_m * 1e-3, stand.over_layer_m(),
+                                       0.5 * parameters_.thickness_m));
+    block.cover = glm::vec4(glm::dvec4(begins, gain, kDepth, pixel));
+    block.turned = glm::vec4(glm::dvec4(c, s, texture_.width(), given ? 0.0 : 1.0));
+
+    const std::vector<Chart> charts = charts_at(turn * glm::normalize(view.camera.position));
+    const double nearest_m = std::max(std::abs(stand.over_layer_m()), 1.0);
+    const bool fine = nearest_m * pixel < 300.0;
+    std::size_t looks = 0;
+    for (const bool finer : {false, true}) {
+      if (finer && !fine) continue;
+      const double tiles = stand.ground_m / (finer ? kFineTile_m : kCoarseTile_m);
+      const double share = finer ? (given ? 0.06 : 0.11) : (given ? 0.2 : 0.34);
+      for (const Chart& chart : charts) {
+        // The square's side along the axes, the plane's normal as it is.
+        const glm::dmat3 axes = glm::transpose(chart.axes) * turn;
+        DetailBlock& detail = block.detail[looks++];
+        const glm::dmat3 rows = glm::transpose(axes);
+        const glm::dvec3 sun = axes * view.sun;
+        for (std::size_t k = 0; k < 3; ++k)
+          detail.chart[k] = glm::vec4(glm::vec3(rows[static_cast<int>(k)] * (k == 0 ? 1.0 : tiles)), 0.0f);
+        detail.sun = glm::vec4(glm::dvec4(sun.x, sun.y * tiles, sun.z * tiles, share * chart.share));
+      }
+    }
+    block.sun = glm::vec4(glm::dvec4(turn * view.sun, static_cast<double>(charts.size())));
+    const glm::dvec3 rounding = rounding_of(view.surface.ellipsoid());
+    block.round_sun = glm::vec4(glm::dvec4(glm::normalize(view.sun * rounding), static_cast<double>(looks)));
+    block.mist = mist_at(view, stand, turn * glm::normalize(view.camera.position), begins, gain);
     block_.bind(block, bindings.block);
-    cover_.bind(bindings.unit);
+    texture_.bind(bindings.unit);
     detail_.bind(bindings.unit + 1);
   }
 
@@ -219,7 +289,7 @@ class Clouds final : public render::Effect {
   }
 
   std::size_t gpu_bytes() const override {
-    return block_.bytes() + indices_.size() + cover_.bytes() + detail_.bytes();
+    return block_.bytes() + indices_.size() + texture_.bytes() + detail_.bytes();
   }
 
  private:
@@ -237,25 +307,52 @@ class Clouds final : public render::Effect {
     return view.height_m > 1e5 || glm::dot(glm::normalize(view.camera.position), view.sun) > kSunAway;
   }
 
+  /// Light and extinction of the mist about an eye in the layer, by the weather there.
+  glm::vec4 mist_at(const render::EffectView& view, const Stand& stand, const glm::dvec3& up, double begins,
+                    double gain) const {
+    const double half_m = 0.5 * parameters_.thickness_m, deep = 1.0 - std::abs(stand.over_layer_m()) / half_m;
+    if (deep <= 0.0) return glm::vec4(0.0f);
+    const double dense = std::clamp(
+        (1.5 * gain) * (cover_at(levels_.front(), texture_.width() >> kMistLevel, up) - begins), 0.0, 1.0);
+    const double depth = kDepth * dense * dense;
+    // What comes through from above.
+    const double above = 0.5 - 0.5 * stand.over_layer_m() / half_m;
+    const double passes = 1.0 / (1.0 + 0.2 * depth * above);
+    const auto cos_sun = static_cast<float>(glm::dot(stand.up, view.sun));
+    const float height_km = static_cast<float>(parameters_.altitude_m * 1e-3);
+    const bool air = render::has_air(view.surface.info());
+    const glm::vec3 sun =
+        air ? render::sun_transmittance(height_km, cos_sun, static_cast<float>(stand.ground_m * 1e-3))
+            : glm::vec3(cos_sun > 0.0f ? 1.0f : 0.0f);
+    const float day = std::clamp((cos_sun + 0.16f) / 0.5f, 0.0f, 1.0f);
+    const glm::vec3 sky =
+        air ? glm::vec3(0.09f, 0.12f, 0.16f) * (day * day * (3.0f - 2.0f * day)) : glm::vec3(0.0f);
+    const float lit = (0.12f + 0.6f * std::max(cos_sun, 0.0f)) * static_cast<float>(passes);
+    const glm::vec3 light = parameters_.color * (sun * lit + sky * static_cast<float>(0.3 + 0.7 * passes)) *
+                            (view.block.sun.w * view.block.rounding.w / std::numbers::pi_v<float>);
+    return {light, static_cast<float>(parameters_.opacity * depth * deep / half_m)};
+  }
+
   void make_textures() {
     const auto seed = static_cast<std::uint32_t>(parameters_.seed);
     int side = kMadeUpSide;
     if (image_) side = image_->width <= 1024 ? 512 : image_->width <= 4096 ? 1024 : 2048;
     const CloudCover cover = image_ ? cover_of(*image_, side) : made_up_cover(seed, side);
     if (image_) image_ = LatLongImage{image_->width, image_->height, image_->channels, {}};
-    const auto levels = cloud_texels(cover);
-    cover_ = gl::Texture::array(GL_RGBA8, side, side, 6, static_cast<int>(levels.size()));
-    for (int level = 0; level < cover_.levels(); ++level) {
+    levels_ = cloud_texels(cover);
+    texture_ = gl::Texture::array(GL_RGBA8, side, side, 6, static_cast<int>(levels_.size()));
+    for (int level = 0; level < texture_.levels(); ++level) {
       const int texels = side >> level;
       for (int face = 0; face < 6; ++face) {
         const std::size_t first = 4 * static_cast<std::size_t>(face) * static_cast<std::size_t>(texels) *
                                   static_cast<std::size_t>(texels);
-        cover_.upload({0, 0, texels, texels, face, level},
-                      levels[static_cast<std::size_t>(level)].data() + first);
+        texture_.upload({0, 0, texels, texels, face, level},
+                        levels_[static_cast<std::size_t>(level)].data() + first);
       }
     }
-    cover_.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
-    cover_.set_wrap(GL_CLAMP_TO_EDGE);
+    levels_.erase(levels_.begin(), levels_.begin() + kMistLevel);
+    texture_.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
+    texture_.set_wrap(GL_CLAMP_TO_EDGE);
     detail_ = gl::Texture::flat(GL_RGBA8, kDetailSide, kDetailSide, 10);
     detail_.upload({0, 0, kDetailSide, kDetailSide, 0, 0}, cloud_detail(seed, kDetailSide).data());
     detail_.generate_mipmaps();
@@ -270,7 +367,8 @@ class Clouds final : public render::Effect {
   gl::VertexArray array_;
   gl::Buffer indices_;
   gl::Program program_;
-  gl::Texture cover_, detail_;
+  std::vector<std::vector<std::uint8_t>> levels_;  ///< of the cover from kMistLevel on
+  gl::Texture texture_, detail_;
 };
 
 }  // namespace

@@ -1,4 +1,3 @@
-#define OUT(type) out type
 #include "effects.glsl"
 #include "effects/clouds.glsl"
 #include "lib/view.glsl"

@@ -1,8 +1,8 @@
 // The layer of clouds as a cap of a sphere about the eye's vertical: rings that widen with their distance, sectors over the part of
 // the horizon that is in view. Corners are lifted so that the triangles' middles, not they, touch the sphere.
 #define OUT(type) out type
-#include "effects/clouds.glsl"
 #include "lib/air_light.glsl"
+#include "effects/clouds.glsl"
 #include "lib/view.glsl"
 
 layout(location = 0) uniform vec3 ahead;   // level, toward the middle sector, in round space
