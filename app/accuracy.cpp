@@ -13,6 +13,7 @@
 #include "app/progress.h"
 #include "globe/base/error.h"
 #include "globe/base/pending_file.h"
+#include "globe/gl/context.h"
 
 namespace app {
 namespace {
@@ -82,13 +83,17 @@ void run(const AccuracyOptions& options) {
   for (const auto& path : {page, rows, json}) globe::refuse_existing(path, options.overwrite);
   make_folder(folder);
   Progress progress(progress_style(options.quiet, false));
-  const accuracy::Scope scope{options.suite == "full"};
-  std::vector<accuracy::MeasuredStudy> measured;
+  accuracy::Scope scope{options.suite == "full"};
+  if (std::any_of(chosen.begin(), chosen.end(), [](const auto& family) { return family.draws; }))
+    scope.context = std::make_shared<globe::gl::Context>();
+  std::vector<accuracy::Study> studies;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    progress.show("measuring " + chosen[k].name, static_cast<double>(k) / static_cast<double>(chosen.size()));
-    for (accuracy::Study& study : chosen[k].studies(scope))
-      measured.push_back(accuracy::measure(std::move(study), scope));
+    progress.show("errors of " + chosen[k].name, static_cast<double>(k) / static_cast<double>(chosen.size()));
+    for (accuracy::Study& study : chosen[k].studies(scope)) studies.push_back(std::move(study));
   }
+  const std::vector<accuracy::MeasuredStudy> measured =
+      accuracy::measure(std::move(studies), accuracy::rounds_of(scope),
+                        [&](double done) { progress.show("measuring", done); });
   progress.show("drawing", 1.0);
   const std::string command = "globe accuracy -o " + options.folder + " --suite " + options.suite +
                               (options.only.empty() ? "" : " --only " + options.only);

@@ -137,8 +137,8 @@ Study study_of(const std::string& name, const std::string& title, const std::str
 /// Frames with one part of the air's steps changed.
 class Frames {
  public:
-  explicit Frames(bool upward)
-      : context_(std::make_shared<globe::gl::Context>()),
+  Frames(std::shared_ptr<globe::gl::Context> context, bool upward)
+      : context_(std::move(context)),
         surface_(globe::planet::Surface::builtin(1)),
         camera_(judged_views(*surface_, kPicture)[upward ? 4 : 3].camera) {
     if (!upward) return;
@@ -374,8 +374,8 @@ Study haze_study(const Frames& frames) {
 
 }  // namespace
 
-std::vector<Study> sky_studies(const Scope&) {
-  const Frames up(true), down(false);
+std::vector<Study> sky_studies(const Scope& scope) {
+  const Frames up(scope.context, true), down(scope.context, false);
   return {step_study(up), map_study(up), haze_study(down), model_study(), column_study()};
 }
 

@@ -35,7 +35,7 @@ TEST(AccuracyReport, QuotesWhatWouldBreakACsvOrAPage) {
   Study study{"name", "a < b & c", "", "ref", "sample", "m", "ns", {}};
   study.settings.push_back({"with, \"quotes\"", {1.0, 0.5, "x"}, fixed(2.0), true});
   study.settings.push_back({"other", {2.0, 0.5, "x"}, fixed(1.0)});
-  const std::vector<MeasuredStudy> measured{measure(study, {})};
+  const std::vector<MeasuredStudy> measured = measure({study}, {});
   EXPECT_NE(csv_of(measured).find("\"with, \"\"quotes\"\"\",true"), std::string::npos);
   const std::string page = html_of(provenance("globe accuracy", "quick"), measured);
   EXPECT_NE(page.find("a &lt; b &amp; c"), std::string::npos);
