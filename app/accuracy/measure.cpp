@@ -47,8 +47,8 @@ CostFigure cost_figure(const PassCosts& passes) {
     medians.push_back(percentile(pass, 50));
   }
   const Interval interval = median_interval(medians);
-  return {percentile(medians, 50), percentile(all, 25), percentile(all, 75),
-          interval.low,            interval.high,       all.size()};
+  return {percentile(medians, 50), percentile(all, 25), percentile(all, 75), interval.low,
+          interval.high,           all.size()};
 }
 
 std::vector<bool> pareto_front(const std::vector<double>& errors, const std::vector<double>& costs) {

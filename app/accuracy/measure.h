@@ -37,9 +37,9 @@ struct MeasuredStudy {
 
 /// How often studies are run.
 struct Rounds {
-  std::size_t passes = 6;  ///< over all studies
-  std::size_t most = 5;    ///< of a study in a pass
-  std::chrono::milliseconds enough = std::chrono::milliseconds(600);  ///< of a study in a pass
+  std::size_t passes = 6;                                             ///< over all studies
+  std::size_t most = 11;                                              ///< of a study in a pass
+  std::chrono::milliseconds enough = std::chrono::milliseconds(400);  ///< of a study in a pass
 };
 Rounds rounds_of(const Scope& scope);
 
@@ -48,8 +48,9 @@ Rounds rounds_of(const Scope& scope);
 /// so that what else the machine does falls on all alike; one round at the least.
 ///
 /// @param progress  called with the share that is done before each study of each pass
-std::vector<MeasuredStudy> measure(std::vector<Study> studies, const Rounds& rounds,
-                                   const std::function<void(double)>& progress = [](double) {});
+std::vector<MeasuredStudy> measure(
+    std::vector<Study> studies, const Rounds& rounds,
+    const std::function<void(double)>& progress = [](double) {});
 
 /// Which of several (error, cost) no other betters in both.
 std::vector<bool> pareto_front(const std::vector<double>& errors, const std::vector<double>& costs);

@@ -112,8 +112,8 @@ std::vector<Study> sample_studies(const Scope& scope) {
     if (samples > most) continue;
     globe::gl::FramebufferFormat format;
     format.samples = samples;
-    const auto frame = std::make_shared<RepeatedFrame>(scope.context, surface, globe::render::RenderSettings{},
-                                                       kPicture.width, kPicture.height, format);
+    const auto frame = std::make_shared<RepeatedFrame>(
+        scope.context, surface, globe::render::RenderSettings{}, kPicture.width, kPicture.height, format);
     study.settings.push_back({std::to_string(samples), edge_error(samples),
                               [=] { return frame->draw_ms(camera, sun); }, samples == 1});
   }

@@ -140,7 +140,8 @@ class Frames {
   Frames(std::shared_ptr<globe::gl::Context> context, bool upward)
       : context_(std::move(context)),
         surface_(globe::planet::Surface::builtin(1)),
-        camera_(judged_views(*surface_, kPicture)[upward ? 4 : 3].camera) {
+        camera_(judged_views(*surface_, kPicture)[upward ? 4 : 3].camera),
+        detail_(upward ? 16 : 64) {  // upward no ground is in view: no need to keep much of it
     if (!upward) return;
     const auto place = globe::geo::geodetic_from_ecef(surface_->ellipsoid(), camera_.position);
     camera_ = render::make_camera(surface_->ellipsoid(), place, 90.0, 40.0, kPicture.fov_y_deg, 16.0 / 9.0);
@@ -148,7 +149,7 @@ class Frames {
 
   std::function<double()> cost(const render::AirSteps& air, int width, int height) const {
     render::RenderSettings ground;
-    ground.clipmap = globe::clipmap::Settings::for_detail(64);
+    ground.clipmap = globe::clipmap::Settings::for_detail(detail_);
     ground.air = air;
     const auto frame = std::make_shared<RepeatedFrame>(context_, surface_, ground, width, height);
     return
@@ -159,6 +160,7 @@ class Frames {
   std::shared_ptr<globe::gl::Context> context_;
   std::shared_ptr<const globe::planet::Surface> surface_;
   render::Camera camera_;
+  int detail_;
 };
 
 Study step_study(const Frames& frames) {
