@@ -132,10 +132,11 @@ Study study_of(const std::string& name, const std::string& title, const std::str
 /// Frames with one part of the air's steps changed.
 class Frames {
  public:
-  explicit Frames(bool upward)
-      : context_(std::make_shared<globe::gl::Context>()),
+  Frames(std::shared_ptr<globe::gl::Context> context, bool upward)
+      : context_(std::move(context)),
         surface_(globe::planet::Surface::builtin(1)),
-        camera_(judged_views(*surface_, kPicture)[upward ? 4 : 3].camera) {
+        camera_(judged_views(*surface_, kPicture)[upward ? 4 : 3].camera),
+        detail_(upward ? 16 : 64) {  // upward no ground is in view: no need to keep much of it
     if (!upward) return;
     const auto place = globe::geo::geodetic_from_ecef(surface_->ellipsoid(), camera_.position);
     camera_ = render::make_camera(surface_->ellipsoid(), place, 90.0, 40.0, kPicture.fov_y_deg, 16.0 / 9.0);
@@ -143,7 +144,7 @@ class Frames {
 
   std::function<double()> cost(const render::AirSteps& air, int width, int height) const {
     render::RenderSettings ground;
-    ground.clipmap = globe::clipmap::Settings::for_detail(64);
+    ground.clipmap = globe::clipmap::Settings::for_detail(detail_);
     ground.air = air;
     const auto frame = std::make_shared<RepeatedFrame>(context_, surface_, ground, width, height);
     return
@@ -154,6 +155,7 @@ class Frames {
   std::shared_ptr<globe::gl::Context> context_;
   std::shared_ptr<const globe::planet::Surface> surface_;
   render::Camera camera_;
+  int detail_;
 };
 
 Study step_study(const Frames& frames) {
@@ -369,8 +371,8 @@ Study haze_study(const Frames& frames) {
 
 }  // namespace
 
-std::vector<Study> sky_studies(const Scope&) {
-  const Frames up(true), down(false);
+std::vector<Study> sky_studies(const Scope& scope) {
+  const Frames up(scope.context, true), down(scope.context, false);
   return {step_study(up), map_study(up), haze_study(down), model_study(), column_study()};
 }
 
