@@ -2,17 +2,22 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "app/accuracy/compare.h"
+#include "app/accuracy/pace.h"
 #include "app/accuracy/report.h"
 #include "app/commands.h"
 #include "app/progress.h"
 #include "globe/base/error.h"
 #include "globe/base/pending_file.h"
+#include "globe/gl/context.h"
 
 namespace app {
 namespace {
@@ -21,6 +26,7 @@ struct AccuracyOptions {
   std::string folder;
   std::string suite = "quick";
   std::string only;
+  std::vector<std::string> compared;  ///< two reports, or none
   bool hard = false;
   bool overwrite = false;
   bool quiet = false;
@@ -64,13 +70,32 @@ void write(const std::filesystem::path& path, const std::string& text, bool over
   file.publish();
 }
 
+nlohmann::json read_report(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw globe::Error(path, "cannot be read", "give the accuracy.json of a report");
+  return nlohmann::json::parse(file);
+}
+
+void show_comparison(const std::string& a, const std::string& b) {
+  try {
+    std::fputs(accuracy::text_of(accuracy::compare(read_report(a), read_report(b))).c_str(), stdout);
+  } catch (const nlohmann::json::exception&) {
+    throw globe::Error(a + " and " + b, "not both are reports",
+                       "give two files accuracy.json of globe accuracy");
+  }
+}
+
 void run(const AccuracyOptions& options) {
   if (options.hard) {
     show_hard_cases();
     return;
   }
+  if (!options.compared.empty()) {
+    show_comparison(options.compared.front(), options.compared.back());
+    return;
+  }
   if (options.folder.empty())
-    throw globe::UsageError("accuracy", "no folder to write to", "give -o DIR, or --hard alone");
+    throw globe::UsageError("accuracy", "no folder to write to", "give -o DIR, or --compare or --hard alone");
   std::vector<accuracy::Family> chosen;
   for (const accuracy::Family& family : accuracy::families())
     if (options.only.empty() || family.name == options.only) chosen.push_back(family);
@@ -82,21 +107,26 @@ void run(const AccuracyOptions& options) {
   for (const auto& path : {page, rows, json}) globe::refuse_existing(path, options.overwrite);
   make_folder(folder);
   Progress progress(progress_style(options.quiet, false));
-  const accuracy::Scope scope{options.suite == "full"};
-  std::vector<accuracy::MeasuredStudy> measured;
+  accuracy::Scope scope{options.suite == "full"};
+  if (std::any_of(chosen.begin(), chosen.end(), [](const auto& family) { return family.draws; }))
+    scope.context = std::make_shared<globe::gl::Context>();
+  std::vector<accuracy::Study> studies{accuracy::pace_of_machine(scope.context)};
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    progress.show("measuring " + chosen[k].name, static_cast<double>(k) / static_cast<double>(chosen.size()));
-    for (accuracy::Study& study : chosen[k].studies(scope))
-      measured.push_back(accuracy::measure(std::move(study), scope));
+    progress.show("errors of " + chosen[k].name, static_cast<double>(k) / static_cast<double>(chosen.size()));
+    for (accuracy::Study& study : chosen[k].studies(scope)) studies.push_back(std::move(study));
   }
+  std::vector<accuracy::MeasuredStudy> measured = accuracy::measure(
+      std::move(studies), accuracy::rounds_of(scope), [&](double done) { progress.show("measuring", done); });
   progress.show("drawing", 1.0);
   const std::string command = "globe accuracy -o " + options.folder + " --suite " + options.suite +
                               (options.only.empty() ? "" : " --only " + options.only);
-  const accuracy::Provenance provenance = accuracy::provenance(command, options.suite);
-  write(page, accuracy::html_of(provenance, measured), options.overwrite);
-  write(rows, accuracy::csv_of(measured), options.overwrite);
-  write(json, accuracy::json_of(provenance, measured), options.overwrite);
-  const std::string text = accuracy::text_of(measured);
+  accuracy::Report report{accuracy::provenance(command, options.suite), std::move(measured.front()), {}};
+  report.studies.assign(std::make_move_iterator(measured.begin() + 1),
+                        std::make_move_iterator(measured.end()));
+  write(page, accuracy::html_of(report), options.overwrite);
+  write(rows, accuracy::csv_of(report), options.overwrite);
+  write(json, accuracy::json_of(report), options.overwrite);
+  const std::string text = accuracy::text_of(report);
   std::fputs(text.c_str(), stdout);
 }
 
@@ -107,10 +137,15 @@ void add_accuracy(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "accuracy", "What each step of accuracy costs here: errors beside times, as a report");
   command->add_option("-o,--output", options->folder, "folder for accuracy.html, .csv and .json");
-  command->add_option("--suite", options->suite, "quick (about a minute) or full")
+  command->add_option("--suite", options->suite, "quick (two minutes) or full")
       ->capture_default_str()
       ->check(CLI::IsMember({"quick", "full"}));
   command->add_option("--only", options->only, "one family: " + names_of_families());
+  command
+      ->add_option("--compare", options->compared,
+                   "two files accuracy.json: in what the reports agree, in place of a report")
+      ->type_name("A.json B.json")
+      ->expected(2);
   command->add_flag("--hard", options->hard,
                     "show the hard cases that the tests last saw, in place of a report");
   command->add_flag("--overwrite", options->overwrite, "replace an existing report");
@@ -120,7 +155,7 @@ void add_accuracy(CLI::App& program) {
       "marks\n"
       "settings that no other betters in both error and cost.  Errors are the same on every run; costs are "
       "medians of\n"
-      "interleaved runs.\n"
+      "runs in passes over all of it, with fixed work among them: the machine's own pace.\n"
       "Example: globe accuracy -o report --only geodesics");
   command->callback([options] { run(*options); });
 }

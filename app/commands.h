@@ -27,6 +27,7 @@ std::string version();
 void add_accuracy(CLI::App& program);
 void add_bench(CLI::App& program);
 void add_cover(CLI::App& program);
+void add_explain(CLI::App& program);
 void add_export(CLI::App& program);
 void add_find(CLI::App& program);
 void add_fly(CLI::App& program);

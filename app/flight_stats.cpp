@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "globe/base/error.h"
+#include "globe/base/text_file.h"
 
 namespace app {
 
@@ -79,16 +77,7 @@ void FlightStats::write(const std::string& path) const {
                         {"upload_bytes", upload_bytes},
                         {"completeness", completeness / count},
                         {"complete", static_cast<double>(complete) / count}}}};
-  const std::string partial = path + ".partial";
-  {
-    std::ofstream file(partial);
-    file << document.dump(1) << '\n';
-    if (!file.flush()) {
-      std::filesystem::remove(partial);
-      throw globe::Error(path, "cannot be written", "check the folder and the free space");
-    }
-  }
-  std::filesystem::rename(partial, path);
+  globe::write_text_file(path, document.dump(1) + "\n", true);
 }
 
 std::string FlightStats::table(std::size_t gpu_bytes) const {

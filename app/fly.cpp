@@ -13,6 +13,7 @@
 
 #include "app/commands.h"
 #include "app/contact_sheet.h"
+#include "app/effect_trace.h"
 #include "app/flight.h"
 #include "app/flight_stats.h"
 #include "app/frame_budget.h"
@@ -50,6 +51,7 @@ struct FlyOptions {
   int frames = 300;
   double fps = 30.0;
   std::string stats;
+  std::string trace;
   std::string contact_sheet;
   bool wait = false;
   std::optional<double> budget_ms;
@@ -142,11 +144,12 @@ void run(FlyOptions options, const CLI::App& command) {
   if (!view.look.empty()) parse_look(view.look);
   refuse_existing(options.stats, view.overwrite);
   refuse_existing(options.contact_sheet, view.overwrite);
+  refuse_existing(options.trace, view.overwrite);
   const auto surface = open_planet(view);
   const geo::Ellipsoid& ellipsoid = surface->ellipsoid();
 
   const globe::gl::Context context(view.device);
-  render::GlobeRenderer renderer(surface, settings, effects_of(scene, *surface));
+  render::GlobeRenderer renderer(surface, settings, effects_of(scene, *surface, optics));
   Lens lens(optics, size.width, size.height, view.samples, settings.background);
   const globe::gl::Framebuffer& target = lens.target();
 
@@ -172,6 +175,7 @@ void run(FlyOptions options, const CLI::App& command) {
   if (!options.contact_sheet.empty()) sheet.emplace(options.frames, size.width, size.height);
   FlightStats stats(context.renderer(), context.version(), size.width, size.height, view.detail,
                     surface->data_level());
+  EffectTrace trace;
   Progress progress(progress_style(view.quiet || view.output == "-", false));
 
   lens.warm_up(renderer);
@@ -198,6 +202,8 @@ void run(FlyOptions options, const CLI::App& command) {
     budget.note(took.count(), frame.upload_ms);
     const double above = renderer.height_above_ground(camera.position, options.wait);
     stats.add({k, at.place, above, took.count(), timer.wait_milliseconds(), frame});
+    if (!options.trace.empty())
+      trace.add({k, t * flight.duration_s(), at.place, above}, renderer.effect_states());
     const std::vector<std::uint8_t> rgba = target.read_rgba8();
     sink.write(rgba);
     if (sheet && sheet->wants(k)) sheet->add(k, rgba, altitude_text(above));
@@ -207,6 +213,7 @@ void run(FlyOptions options, const CLI::App& command) {
   sink.finish();
   if (sheet) sheet->write(options.contact_sheet, view.overwrite);
   if (!options.stats.empty()) stats.write(options.stats);
+  if (!options.trace.empty()) trace.write(options.trace);
   if (!view.quiet)
     std::fputs(stats.table(renderer.textures().bytes()).c_str(), view.output == "-" ? stderr : stdout);
   if (!context.errors().empty())
@@ -229,6 +236,8 @@ void add_fly(CLI::App& program) {
       ->capture_default_str()
       ->check(in_range(0.1, 1000.0));
   command->add_option("--stats", options->stats, "JSON file for the figures of every frame");
+  command->add_option("--trace", options->trace,
+                      "JSON file: when each effect of the scene became active, and why");
   command->add_option("--contact-sheet", options->contact_sheet, "PNG file for twelve frames at a glance");
   command->add_flag(
       "--wait", options->wait,

@@ -35,12 +35,14 @@ std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& pla
 
 std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& planet,
                                                           std::size_t dataset_cache,
-                                                          std::size_t surface_cache, double exaggeration) {
+                                                          std::size_t surface_cache, double exaggeration,
+                                                          globe::planet::SeaFloor sea_floor) {
   using globe::planet::Dataset;
   using globe::planet::Surface;
-  if (const auto seed = procedural_seed(planet)) return Surface::builtin(*seed, surface_cache, exaggeration);
+  if (const auto seed = procedural_seed(planet))
+    return Surface::builtin(*seed, surface_cache, exaggeration, sea_floor);
   return Surface::from_dataset(std::make_shared<const Dataset>(Dataset::open(planet, dataset_cache)),
-                               surface_cache, exaggeration);
+                               surface_cache, exaggeration, sea_floor);
 }
 
 void require_heights(const globe::planet::Surface& surface, const std::string& planet) {

@@ -50,13 +50,22 @@ std::optional<scene::Scene> take_scene(const CLI::App& command, ViewOptions& opt
   take(command, "--background", options.background, picture.background);
   take(command, "--positions", options.positions, picture.positions);
   take(command, "--window", options.window, picture.window);
+  if (globe::effects::draws_sea(*scene)) options.sea_floor = globe::planet::SeaFloor::kBare;
   return scene;
 }
 
 std::vector<globe::render::NamedEffect> effects_of(const std::optional<scene::Scene>& scene,
-                                                   const globe::planet::Surface& surface) {
+                                                   const globe::planet::Surface& surface,
+                                                   const Optics& optics) {
   if (!scene) return {};
-  return globe::effects::make_effects(*scene, surface);
+  std::vector<globe::render::NamedEffect> effects = globe::effects::make_effects(*scene, surface);
+  for (const globe::render::NamedEffect& named : effects) {
+    if (optics.is_wide() && named.effect->stage() == globe::render::Stage::kLens)
+      throw globe::Error(scene->file.string() + ": effects." + named.name,
+                         "it happens in a camera's lens, which only perspective pictures are taken through",
+                         "leave it out, or the projection");
+  }
+  return effects;
 }
 
 }  // namespace app

@@ -15,8 +15,10 @@ namespace app {
 std::optional<globe::scene::Scene> take_scene(const CLI::App& command, CameraOptions& options);
 std::optional<globe::scene::Scene> take_scene(const CLI::App& command, ViewOptions& options);
 
-/// The effects that it asks for; none without a scene. Throws what effects::make_effects throws.
+/// The effects that it asks for; none without a scene. Throws what effects::make_effects throws, and Error
+/// for those of a lens in pictures that are taken without one.
 std::vector<globe::render::NamedEffect> effects_of(const std::optional<globe::scene::Scene>& scene,
-                                                   const globe::planet::Surface& surface);
+                                                   const globe::planet::Surface& surface,
+                                                   const Optics& optics);
 
 }  // namespace app

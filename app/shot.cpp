@@ -8,7 +8,6 @@
 #include "app/standing_camera.h"
 #include "app/view_options.h"
 #include "globe/base/error.h"
-#include "globe/clipmap/ground_below.h"
 #include "globe/gl/context.h"
 #include "globe/gl/framebuffer.h"
 #include "globe/render/camera.h"
@@ -66,7 +65,7 @@ void run(ShotOptions options, const CLI::App& command) {
   const Sunlight sun = sun_for(view, *surface, sunny);
 
   const globe::gl::Context context(view.device);
-  render::GlobeRenderer renderer(surface, settings, effects_of(scene, *surface));
+  render::GlobeRenderer renderer(surface, settings, effects_of(scene, *surface, optics));
   Lens lens(optics, size.width, size.height, view.samples, settings.background);
   const globe::gl::Framebuffer& target = lens.target();
 
@@ -80,9 +79,7 @@ void run(ShotOptions options, const CLI::App& command) {
   lens.draw(renderer, camera, sun.at(options.stand.moment_s), true);
   if (view.show == "depth") {
     write_depth(view, size, target.read_depth(),
-                render::near_distance(surface->ellipsoid(),
-                                      std::max(renderer.height_above_ground(camera.position),
-                                               globe::clipmap::least_above_ground(surface->ellipsoid()))));
+                render::near_distance(surface->ellipsoid(), renderer.nearest_drawn(camera.position)));
   } else if (view.output.ends_with(".exr")) {
     const std::vector<float> rgba = target.read_rgba_float();
     write_image(view.output, size.width, size.height, {"R", "G", "B", "A"}, rgba, view.overwrite);

@@ -13,7 +13,10 @@ globe::geo::Geodetic standing_place(const Point& at, bool agl, const globe::geo:
   globe::geo::Geodetic place = at.position;
   const double given = place.h_m;
   const auto above = [&] { return height_above_ground(globe::geo::ecef_from_geodetic(ellipsoid, place)); };
-  if (agl) place.h_m += given - above();
+  if (agl) {
+    place.h_m = std::max(given, 0.0);  // over a sea from its level, not from the floor
+    place.h_m += given - above();
+  }
   const double least = least_clearance(ellipsoid);
   const double low = above();
   if (low >= least) return place;
@@ -24,6 +27,8 @@ globe::geo::Geodetic standing_place(const Point& at, bool agl, const globe::geo:
     std::fprintf(stderr, text, least - low, least);
   }
   place.h_m += least - low;
+  if (place.h_m >= 0.0 && place.h_m < least - low)
+    place.h_m += std::max(least - above(), 0.0);  // out of shallows
   return place;
 }
 

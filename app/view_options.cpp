@@ -70,16 +70,12 @@ globe::clipmap::Settings clipmap_settings(const CameraOptions& options) {
   return settings;
 }
 
-void add_view_options(CLI::App& command, ViewOptions& options) {
+void add_drawing_options(CLI::App& command, ViewOptions& options) {
   add_camera_options(command, options);
-  command.add_option("-o,--output", options.output, "file to write")->required();
   command.add_option("--samples", options.samples, "samples a pixel")
       ->capture_default_str()
       ->check(CLI::IsMember({1, 4}));
   command.add_option("--background", options.background, "RRGGBB: nothing but ground before this colour");
-  command.add_flag("--wireframe", options.wireframe, "draw the triangles");
-  command.add_option("--show", options.show, "levels, patches, normals or depth")
-      ->check(CLI::IsMember({"levels", "patches", "normals", "depth"}));
   command
       .add_option("--positions", options.positions,
                   "places of vertices: exact; or, to see what accuracy costs, quadratic, chord or float32")
@@ -89,7 +85,6 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
           "--window", options.window,
           "how vertices lie in GPU memory: plain squares; or hexagon, 6 % less in all, the same picture")
       ->capture_default_str();
-  command.add_flag("--overwrite", options.overwrite, "replace existing output");
   command.add_flag("--quiet", options.quiet, "warnings and errors only");
   command.add_option("--device", options.device, "auto, software, or the number of an EGL device")
       ->capture_default_str();
@@ -98,9 +93,18 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       ->check(CLI::Range(64, 1 << 20));
 }
 
+void add_view_options(CLI::App& command, ViewOptions& options) {
+  add_drawing_options(command, options);
+  command.add_option("-o,--output", options.output, "file to write")->required();
+  command.add_flag("--wireframe", options.wireframe, "draw the triangles");
+  command.add_option("--show", options.show, "levels, patches, normals or depth")
+      ->check(CLI::IsMember({"levels", "patches", "normals", "depth"}));
+  command.add_flag("--overwrite", options.overwrite, "replace existing output");
+}
+
 std::shared_ptr<const globe::planet::Surface> open_planet(const ViewOptions& options) {
   const std::size_t bytes = static_cast<std::size_t>(options.memory_mb) << 20;
-  return open_planet(options.planet, bytes / 5 * 2, bytes / 5 * 3, options.exaggeration);
+  return open_planet(options.planet, bytes / 5 * 2, bytes / 5 * 3, options.exaggeration, options.sea_floor);
 }
 
 std::shared_ptr<const globe::planet::Surface> open_planet(const CameraOptions& options) {

@@ -46,8 +46,13 @@ struct ViewOptions : CameraOptions {
   bool quiet = false;
   std::string device = "auto";
   int memory_mb = 640;
+  /// Bare where an effect of the scene draws the sea.
+  globe::planet::SeaFloor sea_floor = globe::planet::SeaFloor::kFlooded;
 };
 
+/// What frames are drawn with, whatever becomes of them.
+void add_drawing_options(CLI::App& command, ViewOptions& options);
+/// The same and what `shot` and `fly` need for files and looks.
 void add_view_options(CLI::App& command, ViewOptions& options);
 
 /// Opens the planet as it is to be drawn, with --memory for its data where there is such an option. Throws

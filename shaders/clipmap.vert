@@ -21,10 +21,11 @@ layout(location = 1) in ivec4 instance;  // corner 0 from the window's first nod
 layout(location = 0) uniform ivec4 window;       // texels of the torus, morph begin, morph end, m
 layout(location = 2) uniform int rim;            // bits 0-2: edges whose vertices are the coarser level's, 3-5: corners
 
+// At silhouettes a pixel's middle may lie outside the triangle that one of its samples is in: centroid.
 out Shading {
-  vec3 sunlight;  // at the ground, what is left of it at the eye, times kSunRange
-  vec3 skylight;
-  vec3 haze;
+  centroid vec3 sunlight;  // at the ground, what is left of it at the eye, times kSunRange
+  centroid vec3 skylight;
+  centroid vec3 haze;
 #ifdef SHADE_FINE
   vec2 texel;
 #endif
@@ -35,12 +36,15 @@ out Shading {
   float share;  // of the coarser level
 #endif
 #ifdef GLINT
-  float glint;
+  centroid float glint;
 #endif
 #ifdef EFFECTS
-  vec3 relative;  // metres from the eye
-  float height;
-  vec3 left;  // share of the light that starts here and reaches the eye
+  centroid vec3 relative;  // metres from the eye
+  centroid float height;
+  centroid vec3 left;  // share of the light that starts here and reaches the eye
+#endif
+#ifdef SEA
+  centroid float depth;  // metres of water over the floor
 #endif
 } shading;
 flat out vec3 layers;  // fine, coarse, level
@@ -58,6 +62,10 @@ bool on_rim(ivec2 ab) {
 #include "lib/interpolated_vertices.glsl"
 #else
 #include "lib/stored_vertices.glsl"
+#endif
+
+#ifdef SEA
+#include "effects/sea_vertex.glsl"
 #endif
 
 void main() {
@@ -94,6 +102,11 @@ void main() {
     position = rim_vertex.xyz + coarse.offset.xyz;
     height = rim_vertex.w;
   }
+#endif
+#ifdef SEA
+  shading.depth = -height;
+  position = sea_over(position, height);
+  height = 0.0;
 #endif
   precise vec4 clip = view.clip_from_relative * vec4(position, 1.0);
   gl_Position = clip;

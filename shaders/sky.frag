@@ -1,7 +1,7 @@
 #define OUT(type) out type
 #include "lib/atmosphere.glsl"
 #include "lib/sky_map.glsl"
-#include "lib/tone.glsl"
+#include "lib/shown_light.glsl"
 #include "lib/view.glsl"
 #ifdef EFFECTS
 #include "effects.glsl"

@@ -22,8 +22,7 @@ struct Distance {
 
 }  // namespace
 
-std::vector<Study> depth_studies(const Scope&) {
-  const auto context = std::make_shared<globe::gl::Context>();
+std::vector<Study> depth_studies(const Scope& scope) {
   std::vector<Study> studies;
   for (const auto& [word, words, distance_m] :
        {Distance{"1m", "1 m", 1.0}, Distance{"100m", "100 m", 100.0}, Distance{"10km", "10 km", 1e4},
@@ -47,7 +46,7 @@ std::vector<Study> depth_studies(const Scope&) {
           return std::string(text);
         });
       }
-      const auto planes = std::make_shared<const DepthPlanes>(context, scheme, 1280, 720);
+      const auto planes = std::make_shared<const DepthPlanes>(scope.context, scheme, 1280, 720);
       study.settings.push_back({name_of(scheme), sum.figure(),
                                 [planes, at = planes_from(distance_m)] { return planes->draw_ms(at); },
                                 scheme == DepthScheme::kReversedFloat,

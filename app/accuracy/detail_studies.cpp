@@ -27,7 +27,6 @@ Study study_of(const std::string& name, const std::string& title, const std::str
 }  // namespace
 
 std::vector<Study> detail_studies(const Scope& scope) {
-  const auto context = std::make_shared<globe::gl::Context>();
   const std::shared_ptr<const globe::planet::Surface> surface = globe::planet::Surface::builtin(1);
   const int rows = scope.full ? kRowsFull : kRowsQuick;
   std::vector<int> details{16, 32, 64, 128};
@@ -48,7 +47,7 @@ std::vector<Study> detail_studies(const Scope& scope) {
     globe::render::RenderSettings ground;
     ground.clipmap = settings[k];
     const auto frame =
-        std::make_shared<RepeatedFrame>(context, surface, ground, kPicture.width, kPicture.height);
+        std::make_shared<RepeatedFrame>(scope.context, surface, ground, kPicture.width, kPicture.height);
     frame->draw_ms(camera, sun);
     const std::string name = "s = " + std::to_string(details[k]);
     const bool is_default = details[k] == kDefault;

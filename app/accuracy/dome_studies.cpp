@@ -67,11 +67,10 @@ std::vector<double> means(const std::vector<std::uint8_t>& fine) {
 
 }  // namespace
 
-std::vector<Study> dome_studies(const Scope&) {
-  const auto context = std::make_shared<globe::gl::Context>();
+std::vector<Study> dome_studies(const Scope& scope) {
   const std::shared_ptr<const globe::planet::Surface> surface = globe::planet::Surface::builtin(1);
   const render::Camera camera = judged_views(*surface, {})[3].camera;
-  const std::vector<double> truth = means(Dome(context, surface, kSide * kFiner, 0, camera).picture());
+  const std::vector<double> truth = means(Dome(scope.context, surface, kSide * kFiner, 0, camera).picture());
   Study study{"domes.faces",
               "Texels of the cube that a dome's picture is made of",
               "--faces",
@@ -80,9 +79,9 @@ std::vector<Study> dome_studies(const Scope&) {
               "steps of 255",
               "ms a frame",
               {}};
-  const int usual = Dome(context, surface, kSide, 0, camera).face_side();
+  const int usual = Dome(scope.context, surface, kSide, 0, camera).face_side();
   for (const int side : {usual / 2, usual * 3 / 4, usual, usual * 2}) {
-    const auto dome = std::make_shared<Dome>(context, surface, kSide, side, camera);
+    const auto dome = std::make_shared<Dome>(scope.context, surface, kSide, side, camera);
     const std::vector<std::uint8_t> drawn = dome->picture();
     ErrorSum sum;
     for (std::size_t k = 0; k < drawn.size(); ++k) {

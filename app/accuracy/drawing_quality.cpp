@@ -107,8 +107,8 @@ FrameFigure frame_figure(const std::shared_ptr<globe::gl::Context>& context, con
   FrameFigure figure;
   for (const JudgedView& view : judged_views(*surface, picture)) {
     const dvec3 sun = sun_over(*surface, view.camera);
-    std::vector<double> times;
-    for (std::size_t k = 0; k < frames; ++k) times.push_back(frame.draw_ms(view.camera, sun));
+    PassCosts times;
+    for (std::size_t k = 0; k < frames; ++k) times.push_back({frame.draw_ms(view.camera, sun)});
     figure.triangles = std::max(figure.triangles, frame.stats().triangles);
     figure.texture_bytes = std::max(figure.texture_bytes, frame.stats().gpu_bytes);
     const CostFigure ms = cost_figure(times);

@@ -10,19 +10,45 @@
 namespace app::accuracy {
 namespace {
 
-struct Rounds {
-  std::size_t least, most;
-  std::chrono::seconds enough;
-};
-constexpr Rounds kQuick{7, 31, std::chrono::seconds(4)};
-constexpr Rounds kFull{31, 101, std::chrono::seconds(60)};
+constexpr Rounds kQuick;
+constexpr Rounds kFull{12, 8, std::chrono::seconds(5)};
+
+/// One round after another of all settings, as many as a pass has.
+void run_pass(const Study& study, const Rounds& rounds, std::size_t pass, std::vector<PassCosts>& costs) {
+  const auto begin = std::chrono::steady_clock::now();
+  for (std::size_t round = 0; round < rounds.most; ++round) {
+    if (round > 0 && std::chrono::steady_clock::now() - begin > rounds.enough) break;
+    for (std::size_t k = 0; k < study.settings.size(); ++k)
+      costs[k][pass].push_back(study.settings[k].cost());
+  }
+}
+
+MeasuredStudy measured_of(Study study, const std::vector<PassCosts>& costs) {
+  MeasuredStudy measured{std::move(study), {}, {}};
+  std::vector<double> errors, medians;
+  for (std::size_t k = 0; k < costs.size(); ++k) {
+    measured.costs.push_back(cost_figure(costs[k]));
+    measured.study.settings[k].cost = nullptr;  // and what it holds: windows, contexts
+    errors.push_back(measured.study.settings[k].error.max);
+    medians.push_back(measured.costs.back().median);
+  }
+  measured.on_front = pareto_front(errors, medians);
+  return measured;
+}
 
 }  // namespace
 
-CostFigure cost_figure(const std::vector<double>& costs) {
-  const Interval interval = median_interval(costs);
-  return {percentile(costs, 50), percentile(costs, 25), percentile(costs, 75),
-          interval.low,          interval.high,         costs.size()};
+Rounds rounds_of(const Scope& scope) { return scope.full ? kFull : kQuick; }
+
+CostFigure cost_figure(const PassCosts& passes) {
+  std::vector<double> all, medians;
+  for (const std::vector<double>& pass : passes) {
+    all.insert(all.end(), pass.begin(), pass.end());
+    medians.push_back(percentile(pass, 50));
+  }
+  const Interval interval = median_interval(medians);
+  return {percentile(medians, 50), percentile(all, 25), percentile(all, 75), interval.low,
+          interval.high,           all.size()};
 }
 
 std::vector<bool> pareto_front(const std::vector<double>& errors, const std::vector<double>& costs) {
@@ -38,23 +64,20 @@ std::vector<bool> pareto_front(const std::vector<double>& errors, const std::vec
   return front;
 }
 
-MeasuredStudy measure(Study study, const Scope& scope) {
-  const Rounds& rounds = scope.full ? kFull : kQuick;
-  std::vector<std::vector<double>> costs(study.settings.size());
-  const auto begin = std::chrono::steady_clock::now();
-  for (std::size_t round = 0; round < rounds.most; ++round) {
-    if (round >= rounds.least && std::chrono::steady_clock::now() - begin > rounds.enough) break;
-    for (std::size_t k = 0; k < costs.size(); ++k) costs[k].push_back(study.settings[k].cost());
+std::vector<MeasuredStudy> measure(std::vector<Study> studies, const Rounds& rounds,
+                                   const std::function<void(double)>& progress) {
+  std::vector<std::vector<PassCosts>> costs;  // study, setting
+  for (const Study& study : studies) costs.emplace_back(study.settings.size(), PassCosts(rounds.passes));
+  const auto turns = static_cast<double>(rounds.passes * studies.size());
+  for (std::size_t pass = 0; pass < rounds.passes; ++pass) {
+    for (std::size_t s = 0; s < studies.size(); ++s) {
+      progress(static_cast<double>(pass * studies.size() + s) / turns);
+      run_pass(studies[s], rounds, pass, costs[s]);
+    }
   }
-  MeasuredStudy measured{std::move(study), {}, {}};
-  std::vector<double> errors, medians;
-  for (std::size_t k = 0; k < costs.size(); ++k) {
-    measured.costs.push_back(cost_figure(costs[k]));
-    measured.study.settings[k].cost = nullptr;  // and what it holds: windows, contexts
-    errors.push_back(measured.study.settings[k].error.max);
-    medians.push_back(measured.costs.back().median);
-  }
-  measured.on_front = pareto_front(errors, medians);
+  std::vector<MeasuredStudy> measured;
+  for (std::size_t s = 0; s < studies.size(); ++s)
+    measured.push_back(measured_of(std::move(studies[s]), costs[s]));
   return measured;
 }
 

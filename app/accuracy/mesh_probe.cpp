@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "globe/clipmap/morph.h"
+#include "globe/render/view_block.h"
 
 namespace app::accuracy {
 namespace {
@@ -15,13 +16,6 @@ using globe::gl::Buffer;
 using globe::render::Batch;
 using globe::render::DrawList;
 using globe::render::Kind;
-
-/// The part of `View` (shaders/lib/view.glsl) that positions depend on; the rest may be anything.
-struct ViewBlock {
-  glm::mat4 clip_from_relative{1.0f};
-  std::array<glm::vec4, 7> rest{glm::vec4(7000.0f, 0.0f, 0.0f, 6371.0f), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f),
-                                glm::vec4(1.0f, 1.0f, 0.0f, 1.0f)};
-};
 
 globe::gl::Program probe_program(Kind kind, const globe::render::ClipmapTextures& textures,
                                  const globe::gl::ShaderReader& reader) {
@@ -77,10 +71,8 @@ std::vector<ProbeVertex> MeshProbe::triangles(const globe::clipmap::ClipmapState
                                               bool all_as_rim) const {
   const DrawList list = globe::render::make_draw_list(settings_, state, textures, surface_->ellipsoid(),
                                                       camera, finest, fade, false);
-  ViewBlock view;
-  if (space == Space::kClip) {
-    view.clip_from_relative = glm::mat4(globe::render::clip_from_relative(camera, 0.05));
-  }
+  globe::render::ViewBlock view = globe::render::view_block(camera, *surface_, dvec3(1.0, 0.0, 0.0), 0.05);
+  if (space == Space::kRelative) view.clip_from_relative = glm::mat4(1.0f);
   const Buffer view_buffer(sizeof view, &view);
   view_buffer.bind_base(GL_UNIFORM_BUFFER, 0);
   Buffer slots(globe::render::kMaxSlots * sizeof(globe::render::SlotBlock));

@@ -16,7 +16,6 @@ constexpr PictureSize kPicture;
 }  // namespace
 
 std::vector<Study> morph_studies(const Scope& scope) {
-  const auto context = std::make_shared<globe::gl::Context>();
   const std::shared_ptr<const Surface> surface = Surface::builtin(1);
   std::vector<globe::geo::Geodetic> at{globe::planet::scenic_place(*surface).place};
   if (scope.full) at.insert(at.end(), {{0.013, 89.983}, {35.2644, -135.0}, {41.3, 0.0}, {0.0, 30.7}});
@@ -45,7 +44,7 @@ std::vector<Study> morph_studies(const Scope& scope) {
     globe::render::RenderSettings ground;
     ground.clipmap.morph = morph;
     const auto frame =
-        std::make_shared<RepeatedFrame>(context, surface, ground, kPicture.width, kPicture.height);
+        std::make_shared<RepeatedFrame>(scope.context, surface, ground, kPicture.width, kPicture.height);
     study.settings.push_back(
         {morph ? "on" : "off", sum.figure(), [=] { return frame->draw_ms(camera, sun); }, morph});
   }

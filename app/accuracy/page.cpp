@@ -58,9 +58,25 @@ std::string table_of(const MeasuredStudy& measured) {
   return html + "</table>\n";
 }
 
+std::string pace_of(const MeasuredStudy& pace) {
+  std::string html =
+      "<h2 id=\"pace\">" + escaped(pace.study.title) +
+      "</h2>\n<p class=\"about\">All is measured in passes over the whole report, this fixed work "
+      "among it. An interval is that of the passes' medians. Costs of two reports can be compared "
+      "where this work took as long.</p>\n<table><tr><th>work</th><th>" +
+      escaped(pace.study.cost_unit) + "</th><th>95 % of the median</th><th>runs</th></tr>\n";
+  for (std::size_t k = 0; k < pace.costs.size(); ++k) {
+    const CostFigure& cost = pace.costs[k];
+    html += "<tr><td>" + escaped(pace.study.settings[k].name) + "</td><td>" + figure(cost.median) +
+            "</td><td>" + figure(cost.low) + " to " + figure(cost.high) + "</td><td>" +
+            std::to_string(cost.runs) + "</td></tr>\n";
+  }
+  return html + "</table>\n";
+}
+
 }  // namespace
 
-std::string html_of(const Provenance& provenance, const std::vector<MeasuredStudy>& studies) {
+std::string html_of(const Report& report) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>What accuracy costs</title>"
       "<meta name=\"viewport\" content=\"width=device-width\"><style>" +
@@ -68,15 +84,15 @@ std::string html_of(const Provenance& provenance, const std::vector<MeasuredStud
       "</style></head><body>\n<h1>What accuracy costs</h1>\n<p>Every setting's largest "
       "and RMS error against a reference, beside the median cost of interleaved runs, measured on this "
       "machine by <code>" +
-      escaped(provenance.command) +
+      escaped(report.provenance.command) +
       "</code>. Cheaper is to the left, more exact is "
       "below; the line joins settings that nothing betters in both; the filled point is the default.</p>\n"
       "<table>\n";
-  for (const auto& [name, value] : provenance.facts)
+  for (const auto& [name, value] : report.provenance.facts)
     html += "<tr><td class=\"left\">" + escaped(name) + "</td><td class=\"left\">" + escaped(value) +
             "</td></tr>\n";
-  html += "</table>\n";
-  for (const MeasuredStudy& measured : studies) {
+  html += "</table>\n" + pace_of(report.pace);
+  for (const MeasuredStudy& measured : report.studies) {
     const Study& study = measured.study;
     html += "<h2 id=\"" + escaped(study.name) + "\">" + escaped(study.title) + "</h2>\n<p class=\"about\">" +
             (study.knob.empty() ? std::string("No option; the others are yardsticks. ")

@@ -171,7 +171,6 @@ Study memory_study(Study study) {
 }  // namespace
 
 std::vector<Study> position_studies(const Scope& scope) {
-  const auto context = std::make_shared<globe::gl::Context>();
   const std::shared_ptr<const Surface> surface = Surface::builtin(1);
   const auto at = places(scope.full);
   std::vector<Study> studies;
@@ -182,7 +181,7 @@ std::vector<Study> position_studies(const Scope& scope) {
     const auto sums = errors_of(surface, mode.positions, at, is_default ? &seen : nullptr);
     globe::render::RenderSettings ground;
     ground.clipmap = settings_of(mode.positions, 2);
-    const auto frame = std::make_shared<RepeatedFrame>(context, surface, ground, 64, 36);
+    const auto frame = std::make_shared<RepeatedFrame>(scope.context, surface, ground, 64, 36);
     for (std::size_t h = 0; h < kHeights.size(); ++h) {
       const Camera camera = camera_at(*surface, at.front(), kHeights[h]);
       const glm::dvec3 sun = sun_over(*surface, camera);
@@ -192,7 +191,7 @@ std::vector<Study> position_studies(const Scope& scope) {
   }
   studies.push_back(memory_study(studies.front()));
   for (std::size_t h = 0; h < kHeights.size(); ++h)
-    studies.push_back(yardstick_study(context, *surface, kHeights[h], seen[h]));
+    studies.push_back(yardstick_study(scope.context, *surface, kHeights[h], seen[h]));
   return studies;
 }
 

@@ -16,6 +16,8 @@
 namespace app::accuracy {
 namespace {
 
+using nlohmann::ordered_json;
+
 std::string processor() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);) {
@@ -42,6 +44,32 @@ std::string csv_field(const std::string& text) {
 
 std::string number(double value) { return number_text(value, std::nullopt); }
 
+std::string csv_rows(const MeasuredStudy& measured) {
+  const Study& study = measured.study;
+  std::string text;
+  for (std::size_t k = 0; k < study.settings.size(); ++k) {
+    const Setting& setting = study.settings[k];
+    const CostFigure& cost = measured.costs[k];
+    for (const std::string& field :
+         {study.name, study.knob, setting.name, std::string(setting.is_default ? "true" : "false"),
+          study.error_unit, number(setting.error.max), number(setting.error.rms), setting.error.where,
+          study.cost_unit, number(cost.median), number(cost.q1), number(cost.q3), number(cost.low),
+          number(cost.high), std::to_string(cost.runs), std::string(measured.on_front[k] ? "true" : "false")})
+      text += csv_field(field) + ',';
+    text += csv_field(setting.note) + '\n';
+  }
+  return text;
+}
+
+void add_cost(const CostFigure& cost, ordered_json& object) {
+  object["cost_median"] = cost.median;
+  object["cost_q1"] = cost.q1;
+  object["cost_q3"] = cost.q3;
+  object["cost_low"] = cost.low;
+  object["cost_high"] = cost.high;
+  object["runs"] = cost.runs;
+}
+
 }  // namespace
 
 std::string figure(double value) {
@@ -64,9 +92,15 @@ Provenance provenance(const std::string& command, const std::string& suite) {
        {"GDAL", GDAL_RELEASE_NAME}}};
 }
 
-std::string text_of(const std::vector<MeasuredStudy>& studies) {
-  std::string text;
-  for (const MeasuredStudy& measured : studies) {
+std::string text_of(const Report& report) {
+  std::string text = report.pace.study.title + "\n";
+  for (std::size_t k = 0; k < report.pace.costs.size(); ++k) {
+    const CostFigure& cost = report.pace.costs[k];
+    text += "  " + padded(report.pace.study.settings[k].name, 56) + figure(cost.median) + " " +
+            report.pace.study.cost_unit + " (95 %: " + figure(cost.low) + " to " + figure(cost.high) + ")\n";
+  }
+  text += "\n";
+  for (const MeasuredStudy& measured : report.studies) {
     const Study& study = measured.study;
     const std::size_t error_width = std::max<std::size_t>(14, study.error_unit.size() + 7);
     text += study.title + (study.knob.empty() ? "" : " (" + study.knob + ")") + "\n";
@@ -85,53 +119,40 @@ std::string text_of(const std::vector<MeasuredStudy>& studies) {
   return text;
 }
 
-std::string csv_of(const std::vector<MeasuredStudy>& studies) {
+std::string csv_of(const Report& report) {
   std::string text =
       "study,knob,setting,default,error_unit,error_max,error_rms,error_where,cost_unit,cost_median,cost_q1,"
       "cost_q3,"
-      "cost_low,cost_high,runs,pareto,note\n";
-  for (const MeasuredStudy& measured : studies) {
-    const Study& study = measured.study;
-    for (std::size_t k = 0; k < study.settings.size(); ++k) {
-      const Setting& setting = study.settings[k];
-      const CostFigure& cost = measured.costs[k];
-      for (const std::string& field :
-           {study.name, study.knob, setting.name, std::string(setting.is_default ? "true" : "false"),
-            study.error_unit, number(setting.error.max), number(setting.error.rms), setting.error.where,
-            study.cost_unit, number(cost.median), number(cost.q1), number(cost.q3), number(cost.low),
-            number(cost.high), std::to_string(cost.runs),
-            std::string(measured.on_front[k] ? "true" : "false")})
-        text += csv_field(field) + ',';
-      text += csv_field(setting.note) + '\n';
-    }
-  }
+      "cost_low,cost_high,runs,pareto,note\n" +
+      csv_rows(report.pace);
+  for (const MeasuredStudy& measured : report.studies) text += csv_rows(measured);
   return text;
 }
 
-std::string json_of(const Provenance& provenance, const std::vector<MeasuredStudy>& studies) {
-  using nlohmann::ordered_json;
-  ordered_json json{{"command", provenance.command}, {"suite", provenance.suite}};
-  for (const auto& [name, value] : provenance.facts) json["facts"][name] = value;
+std::string json_of(const Report& report) {
+  ordered_json json{{"command", report.provenance.command}, {"suite", report.provenance.suite}};
+  for (const auto& [name, value] : report.provenance.facts) json["facts"][name] = value;
+  json["pace"] = ordered_json::array();
+  for (std::size_t k = 0; k < report.pace.costs.size(); ++k) {
+    ordered_json pace{{"name", report.pace.study.settings[k].name}};
+    add_cost(report.pace.costs[k], pace);
+    json["pace"].push_back(std::move(pace));
+  }
   json["studies"] = ordered_json::array();
-  for (const MeasuredStudy& measured : studies) {
+  for (const MeasuredStudy& measured : report.studies) {
     const Study& study = measured.study;
     ordered_json settings = ordered_json::array();
     for (std::size_t k = 0; k < study.settings.size(); ++k) {
       const Setting& setting = study.settings[k];
-      const CostFigure& cost = measured.costs[k];
-      settings.push_back({{"name", setting.name},
-                          {"default", setting.is_default},
-                          {"error_max", setting.error.max},
-                          {"error_rms", setting.error.rms},
-                          {"error_where", setting.error.where},
-                          {"cost_median", cost.median},
-                          {"cost_q1", cost.q1},
-                          {"cost_q3", cost.q3},
-                          {"cost_low", cost.low},
-                          {"cost_high", cost.high},
-                          {"runs", cost.runs},
-                          {"pareto", static_cast<bool>(measured.on_front[k])},
-                          {"note", setting.note}});
+      ordered_json row{{"name", setting.name},
+                       {"default", setting.is_default},
+                       {"error_max", setting.error.max},
+                       {"error_rms", setting.error.rms},
+                       {"error_where", setting.error.where}};
+      add_cost(measured.costs[k], row);
+      row["pareto"] = static_cast<bool>(measured.on_front[k]);
+      row["note"] = setting.note;
+      settings.push_back(std::move(row));
     }
     json["studies"].push_back({{"name", study.name},
                                {"title", study.title},

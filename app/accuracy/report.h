@@ -19,18 +19,24 @@ struct Provenance {
 /// Facts of this machine and program.
 Provenance provenance(const std::string& command, const std::string& suite);
 
+struct Report {
+  Provenance provenance;
+  MeasuredStudy pace;  ///< pace_of_machine, measured with the studies
+  std::vector<MeasuredStudy> studies;
+};
+
 /// A line for each setting, for a terminal.
-std::string text_of(const std::vector<MeasuredStudy>& studies);
+std::string text_of(const Report& report);
 
-/// One row a setting, a header line, figures at full precision.
-std::string csv_of(const std::vector<MeasuredStudy>& studies);
+/// One row a setting, those of the pace first, a header line, figures at full precision.
+std::string csv_of(const Report& report);
 
-/// One object: the provenance and the studies.
-std::string json_of(const Provenance& provenance, const std::vector<MeasuredStudy>& studies);
+/// One object: the provenance, the pace and the studies.
+std::string json_of(const Report& report);
 
 /// A page that needs no other file: plots as SVG, by gnuplot, and tables. Throws Error when there is no
 /// gnuplot.
-std::string html_of(const Provenance& provenance, const std::vector<MeasuredStudy>& studies);
+std::string html_of(const Report& report);
 
 /// A study's error against its cost as an SVG drawing, both logarithmic, the front joined, the default
 /// filled.

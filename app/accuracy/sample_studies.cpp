@@ -94,8 +94,7 @@ ErrorFigure edge_error(int samples) {
 
 }  // namespace
 
-std::vector<Study> sample_studies(const Scope&) {
-  const auto context = std::make_shared<globe::gl::Context>();
+std::vector<Study> sample_studies(const Scope& scope) {
   const std::shared_ptr<const globe::planet::Surface> surface = globe::planet::Surface::builtin(1);
   const globe::render::Camera camera = judged_views(*surface, kPicture)[3].camera;
   const glm::dvec3 sun = sun_over(*surface, camera);
@@ -113,8 +112,8 @@ std::vector<Study> sample_studies(const Scope&) {
     if (samples > most) continue;
     globe::gl::FramebufferFormat format;
     format.samples = samples;
-    const auto frame = std::make_shared<RepeatedFrame>(context, surface, globe::render::RenderSettings{},
-                                                       kPicture.width, kPicture.height, format);
+    const auto frame = std::make_shared<RepeatedFrame>(
+        scope.context, surface, globe::render::RenderSettings{}, kPicture.width, kPicture.height, format);
     study.settings.push_back({std::to_string(samples), edge_error(samples),
                               [=] { return frame->draw_ms(camera, sun); }, samples == 1});
   }

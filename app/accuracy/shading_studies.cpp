@@ -64,7 +64,7 @@ class ToneScreen {
   globe::gl::Framebuffer target_{1280, 720};
 };
 
-Study tone_study() {
+Study tone_study(const std::shared_ptr<globe::gl::Context>& context) {
   constexpr int kLights = 20000;
   Study study{"shading.tone",
               "From light to the screen",
@@ -74,7 +74,6 @@ Study tone_study() {
               "steps of 255",
               "ms a screen of 1280x720",
               {}};
-  const auto context = std::make_shared<globe::gl::Context>();
   for (const bool exact : {false, true}) {
     ErrorSum sum;
     for (int k = 0; k < kLights; ++k) {
@@ -253,6 +252,8 @@ Study normal_study() {
 
 }  // namespace
 
-std::vector<Study> shading_studies(const Scope&) { return {tone_study(), texel_study(), normal_study()}; }
+std::vector<Study> shading_studies(const Scope& scope) {
+  return {tone_study(scope.context), texel_study(), normal_study()};
+}
 
 }  // namespace app::accuracy

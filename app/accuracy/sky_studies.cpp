@@ -77,14 +77,17 @@ std::vector<AirCase> sky_cases() {
   return cases;
 }
 
-/// Looks at the ground, from the ground's own level to space.
+/// Looks at the ground, from the ground's own level to space, from where the terminator is in view by night,
+/// too.
 std::vector<AirCase> haze_cases() {
   std::vector<AirCase> cases;
-  for (const double eye_km : {0.002, 1.0, 12.0, 100.0, 400.0}) {
+  for (const double eye_km : {0.002, 1.0, 12.0, 100.0, 400.0, 2000.0, 20000.0}) {
     const dvec3 eye(0.0, 0.0, kGround + eye_km);
-    for (const double sun_deg : kSuns) {
+    std::vector<double> suns(kSuns.begin(), kSuns.end());
+    if (eye_km > 80.0) suns.insert(suns.end(), {-12.0, -30.0, -60.0});
+    for (const double sun_deg : suns) {
       for (const double azimuth_deg : {0.0, 90.0, 180.0}) {
-        for (const double away_km : {3.0, 20.0, 100.0, 300.0, 1000.0}) {
+        for (const double away_km : {3.0, 20.0, 100.0, 300.0, 1000.0, 3000.0, 6000.0}) {
           const double turn = away_km / kGround;
           if (std::cos(turn) * eye.z <= kGround) continue;  // beyond the horizon
           const double a = radians(azimuth_deg);
@@ -103,14 +106,6 @@ std::vector<AirCase> haze_cases() {
 render::AirRay as_drawn(const ReferenceRay& ray) {
   return {glm::vec3(ray.eye),         glm::vec3(ray.direction), static_cast<float>(ray.from),
           static_cast<float>(ray.to), glm::vec3(ray.sun),       static_cast<float>(ray.ground)};
-}
-
-/// As shaders/clipmap.vert and render::view_block choose: in twilight every sample has its own sun.
-dvec3 drawn_haze(const ReferenceRay& ray, int steps) {
-  const render::AirRay air = as_drawn(ray);
-  return render::is_twilight(glm::length(ray.eye) - kGround, glm::dot(glm::normalize(ray.eye), ray.sun))
-             ? render::sky_light(air, 2 * steps)
-             : render::haze(air, steps);
 }
 
 double largest(const dvec3& light) { return std::max({light.x, light.y, light.z}); }
@@ -137,10 +132,11 @@ Study study_of(const std::string& name, const std::string& title, const std::str
 /// Frames with one part of the air's steps changed.
 class Frames {
  public:
-  explicit Frames(bool upward)
-      : context_(std::make_shared<globe::gl::Context>()),
+  Frames(std::shared_ptr<globe::gl::Context> context, bool upward)
+      : context_(std::move(context)),
         surface_(globe::planet::Surface::builtin(1)),
-        camera_(judged_views(*surface_, kPicture)[upward ? 4 : 3].camera) {
+        camera_(judged_views(*surface_, kPicture)[upward ? 4 : 3].camera),
+        detail_(upward ? 16 : 64) {  // upward no ground is in view: no need to keep much of it
     if (!upward) return;
     const auto place = globe::geo::geodetic_from_ecef(surface_->ellipsoid(), camera_.position);
     camera_ = render::make_camera(surface_->ellipsoid(), place, 90.0, 40.0, kPicture.fov_y_deg, 16.0 / 9.0);
@@ -148,7 +144,7 @@ class Frames {
 
   std::function<double()> cost(const render::AirSteps& air, int width, int height) const {
     render::RenderSettings ground;
-    ground.clipmap = globe::clipmap::Settings::for_detail(64);
+    ground.clipmap = globe::clipmap::Settings::for_detail(detail_);
     ground.air = air;
     const auto frame = std::make_shared<RepeatedFrame>(context_, surface_, ground, width, height);
     return
@@ -159,6 +155,7 @@ class Frames {
   std::shared_ptr<globe::gl::Context> context_;
   std::shared_ptr<const globe::planet::Surface> surface_;
   render::Camera camera_;
+  int detail_;
 };
 
 Study step_study(const Frames& frames) {
@@ -323,7 +320,7 @@ Study map_study(const Frames& frames) {
       study_of("map", "Texels of the sky's map", "the same samples of the air, taken for the ray itself",
                4 * kSuns.size() * kRays, "ms a frame of sky, 1280x720");
   for (const glm::ivec2& size :
-       {glm::ivec2(16, 64), glm::ivec2(32, 128), glm::ivec2(64, 256), glm::ivec2(128, 512)}) {
+       {glm::ivec2(32, 32), glm::ivec2(32, 128), glm::ivec2(96, 64), glm::ivec2(192, 256)}) {
     ErrorSum sum;
     std::mt19937_64 random(41);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -363,7 +360,7 @@ Study haze_study(const Frames& frames) {
   for (const int steps : {2, 4, 8}) {
     ErrorSum sum;
     for (std::size_t k = 0; k < cases.size(); ++k)
-      add(sum, drawn_haze(cases[k].ray, steps), truth[k], cases[k].name);
+      add(sum, render::haze(as_drawn(cases[k].ray), steps), truth[k], cases[k].name);
     render::AirSteps air;
     air.haze = steps;
     study.settings.push_back(
@@ -374,8 +371,8 @@ Study haze_study(const Frames& frames) {
 
 }  // namespace
 
-std::vector<Study> sky_studies(const Scope&) {
-  const Frames up(true), down(false);
+std::vector<Study> sky_studies(const Scope& scope) {
+  const Frames up(scope.context, true), down(scope.context, false);
   return {step_study(up), map_study(up), haze_study(down), model_study(), column_study()};
 }
 

@@ -4,8 +4,13 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
+
+namespace globe::gl {
+class Context;
+}
 
 namespace app::accuracy {
 
@@ -62,9 +67,10 @@ struct Study {
   std::vector<Setting> settings;
 };
 
-/// How much is measured.
+/// How much is measured, and with what.
 struct Scope {
   bool full = false;  ///< the sizes and levels of a report to be cited, in place of a look
+  std::shared_ptr<globe::gl::Context> context = {};  ///< current, and stays so, where something is drawn
 };
 
 /// Studies that belong together, by the word that --only takes.
@@ -73,7 +79,7 @@ struct Family {
   std::function<std::vector<Study>(const Scope&)> studies;
   std::vector<std::string> knobs = {};           ///< Study::knob of its studies, known without running them
   std::vector<std::string> approximations = {};  ///< what no option turns: how names of its studies begin
-  bool draws = false;                            ///< needs OpenGL
+  bool draws = false;                            ///< needs Scope::context
 };
 
 /// All families, in the order of the report.
@@ -94,6 +100,7 @@ std::vector<Study> dome_studies(const Scope& scope);
 std::vector<Study> sample_studies(const Scope& scope);
 std::vector<Study> window_studies(const Scope& scope);
 std::vector<Study> sky_studies(const Scope& scope);
+std::vector<Study> atmosphere_studies(const Scope& scope);
 std::vector<Study> shading_studies(const Scope& scope);
 
 /// Takes what work comes to, so that no compiler leaves it out.

@@ -13,8 +13,7 @@ constexpr PictureSize kPicture;
 
 }  // namespace
 
-std::vector<Study> window_studies(const Scope&) {
-  const auto context = std::make_shared<globe::gl::Context>();
+std::vector<Study> window_studies(const Scope& scope) {
   const std::shared_ptr<const globe::planet::Surface> surface = globe::planet::Surface::builtin(1);
   const std::vector<JudgedView> views = judged_views(*surface, kPicture);
   Study memory{"windows.memory",
@@ -35,7 +34,7 @@ std::vector<Study> window_studies(const Scope&) {
     globe::render::RenderSettings ground;
     ground.clipmap.windows = kind;
     const auto frame =
-        std::make_shared<RepeatedFrame>(context, surface, ground, kPicture.width, kPicture.height);
+        std::make_shared<RepeatedFrame>(scope.context, surface, ground, kPicture.width, kPicture.height);
     const auto camera = views[3].camera;
     frame->draw_ms(camera, sun_over(*surface, camera));
     const auto bytes = static_cast<double>(frame->stats().gpu_bytes);

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "globe/base/error.h"
+#include "globe/base/pending_file.h"
 
 namespace globe {
 
@@ -27,6 +28,17 @@ std::string read_text_file(const std::filesystem::path& file, std::size_t longes
   }
   if (stream.bad()) throw Error(file.string(), "reading fails", "check the disk");
   return text;
+}
+
+void write_text_file(const std::filesystem::path& file, const std::string& text, bool overwrite) {
+  PendingFile pending(file, overwrite);
+  {
+    std::ofstream stream(pending.temporary(), std::ios::binary);
+    stream << text;
+    if (!stream.flush())
+      throw Error(file.string(), "cannot be written", "check the folder and the free space");
+  }
+  pending.publish();
 }
 
 }  // namespace globe

@@ -32,8 +32,9 @@ std::vector<GroundPart> parts_within(const NodeRect& rect, const std::vector<Gro
   return kept;
 }
 
-GroundPart make_ground(const Surface& surface, int level, int d, const NodeRect& rect) {
-  auto nodes = std::make_shared<ShadingNodes>(make_shading_nodes(surface, level, d, rect));
+GroundPart make_ground(const Surface& surface, int level, int d, const NodeRect& rect,
+                       const planet::Coloring* coloring) {
+  auto nodes = std::make_shared<ShadingNodes>(make_shading_nodes(surface, level, d, rect, coloring));
   return {rect, rect, std::move(nodes)};
 }
 
@@ -47,7 +48,21 @@ ShadingBlock make_shading_block(const Lighting& lighting, int level, int d, cons
   return block;
 }
 
-PatchBounds bound_patch(const Settings& settings, const LevelData& data, const Patch& patch) {
+/// Bounds of a patch of sea floor and of the sea over it: a sphere around both, the sea's being as wide.
+PatchBounds with_sea(const dvec3& anchor, const PatchBounds& floor) {
+  constexpr auto kWaves = static_cast<float>(planet::kHighestWave);
+  const glm::vec3 up(glm::normalize(anchor + dvec3(floor.centre)));
+  const float rise = kWaves - floor.lowest;
+  PatchBounds both = floor;
+  both.centre += 0.5f * rise * up;
+  both.radius += rise * (0.5f + floor.radius / static_cast<float>(glm::length(anchor + dvec3(floor.centre))));
+  both.highest = std::max(floor.highest, kWaves);
+  both.water = true;
+  return both;
+}
+
+PatchBounds bound_patch(const Settings& settings, const Surface& surface, const LevelData& data,
+                        const Patch& patch) {
   const auto d = static_cast<std::size_t>(patch.trixel.d);
   glm::vec3 low(std::numeric_limits<float>::max());
   glm::vec3 high(std::numeric_limits<float>::lowest());
@@ -72,6 +87,7 @@ PatchBounds bound_patch(const Settings& settings, const LevelData& data, const P
       bounds.radius = std::max(bounds.radius, glm::distance(bounds.centre, glm::vec3(position(a, b))));
     }
   }
+  if (surface.has_bare_floor() && lowest < 0.0f) bounds = with_sea(data.anchor, bounds);
   return bounds;  // morphed vertices lie between these positions, hence inside
 }
 
@@ -162,7 +178,7 @@ dvec3 level_anchor(const Settings& settings, const Surface& surface, const Regio
     return dvec3(0.0);  // the whole sphere: its centre
   }
   return geo::ecef_from_normal(surface.ellipsoid(), planet::node_direction(node),
-                               surface.drawn_height(surface.height(node)));
+                               surface.mesh_height(surface.height(node)));
 }
 
 LevelUpdate update_level(const Settings& settings, const Surface& surface, Region region,
@@ -174,6 +190,8 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
   const int up = 1 << settings.shading_levels_at(level);
   const int shading_n = planet::nodes_per_side(shading_level);
   data->anchor = level_anchor(settings, surface, region);
+  const LevelData* painted =
+      before != nullptr && before->lighting.coloring == lighting.coloring ? before : nullptr;
   const bool same_anchor = before != nullptr && before->anchor == data->anchor;
   data->vertices = region.nodes;
   for (int d = 0; d < kDiamonds; ++d) {
@@ -185,11 +203,11 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
     // One guard node all round: bilinear look-ups at the border of the region read it, with weight zero.
     data->shading[k] = {std::max(rect.i0 * up - 1, 0), std::min(rect.i1 * up + 1, shading_n),
                         std::max(rect.j0 * up - 1, 0), std::min(rect.j1 * up + 1, shading_n)};
-    if (before != nullptr) data->ground[k] = parts_within(data->shading[k], before->ground[k]);
+    if (painted != nullptr) data->ground[k] = parts_within(data->shading[k], painted->ground[k]);
     const std::size_t kept = data->ground[k].size();
     for (const NodeRect& part :
-         difference(data->shading[k], before != nullptr ? before->shading[k] : NodeRect{})) {
-      data->ground[k].push_back(make_ground(surface, shading_level, d, part));
+         difference(data->shading[k], painted != nullptr ? painted->shading[k] : NodeRect{})) {
+      data->ground[k].push_back(make_ground(surface, shading_level, d, part, lighting.coloring.get()));
     }
     const bool same_light = before != nullptr && before->lighting == lighting;
     for (std::size_t p = same_light ? kept : 0; p < data->ground[k].size(); ++p)
@@ -201,7 +219,8 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
   std::sort(data->patches.begin(), data->patches.end(),
             [](const Patch& a, const Patch& b) { return a.trixel < b.trixel; });
   data->bounds.reserve(data->patches.size());
-  for (const Patch& patch : data->patches) data->bounds.push_back(bound_patch(settings, *data, patch));
+  for (const Patch& patch : data->patches)
+    data->bounds.push_back(bound_patch(settings, surface, *data, patch));
   // between chords of whole patches, as deep as triangles of that size would lie
   const int drawn_flat = settings.positions == Positions::kChord
                              ? level - static_cast<int>(std::bit_width(static_cast<unsigned>(settings.m))) + 1

@@ -24,12 +24,13 @@ struct ShadingBlock {
 };
 
 /// Sphere around everything a patch can be drawn as, metres from the level's anchor, and how high above the
-/// ellipsoid that reaches.
+/// ellipsoid that reaches; with the sea over it where its floor is bare.
 struct PatchBounds {
   glm::vec3 centre{0.0f};
   float radius = 0;
   float highest = 0;
-  float lowest = 0;  ///< height of its lowest vertex
+  float lowest = 0;    ///< height of its lowest vertex
+  bool water = false;  ///< a sea is to be drawn over some of it
 };
 
 /// Shading nodes that were made together. What stays of them from state to state is shared, not copied.

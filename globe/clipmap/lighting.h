@@ -4,16 +4,19 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <vector>
 
 #include "globe/clipmap/region.h"
+#include "globe/planet/appearance.h"
 
 namespace globe::clipmap {
 
 /// What the ground is shaded with before it is drawn.
 struct Lighting {
-  dvec3 sun{0.0, 0.0, 1.0};  ///< unit vector toward it, ECEF
-  bool normals = false;      ///< show normals in place of light
+  dvec3 sun{0.0, 0.0, 1.0};                            ///< unit vector toward it, ECEF
+  bool normals = false;                                ///< show normals in place of light
+  std::shared_ptr<const planet::Coloring> coloring{};  ///< of the ground; null: its own
 
   friend bool operator==(const Lighting&, const Lighting&) = default;
 };

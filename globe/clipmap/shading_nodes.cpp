@@ -135,12 +135,13 @@ void take_exact_slope(const Surface& surface, const SurfaceTile& tile, int i, in
 }
 
 void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const NodeRect& part,
-                     const NodeRect& held, ShadingNodes& ground_nodes) {
+                     const NodeRect& held, const planet::Coloring* coloring, ShadingNodes& ground_nodes) {
   const TileId& id = tile.id;
   const planet::TileValues<double>& h = tile.shading_height();
   const TileMetric metrics(surface.ellipsoid(), id);
   const double edge = std::ldexp(surface.root_edge(), -id.level);
   const bool sea = surface.has_sea();
+  const bool bare = surface.has_bare_floor();
   const double exaggeration = surface.exaggeration();
   for (int j = part.j0; j <= part.j1; ++j) {
     for (int i = part.i0; i <= part.i1; ++i) {
@@ -157,12 +158,14 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
       if (is_bent(id, i, j)) take_exact_slope(surface, tile, i, j, ground);
       ground.sin_latitude = metrics.sin_latitude(i, j);
       const bool water = sea && ground.height_m < 0.0;
-      const glm::vec3 color = planet::albedo(ground);
-      const bool open_water = water && color.r < 0.3f;  // not pack ice
+      glm::vec3 color = planet::albedo(ground);
+      const bool open_water =
+          water && (bare ? planet::pack_ice(ground) < 0.5f : color.r < 0.3f);  // not pack ice
+      if (coloring != nullptr) color = (*coloring)(ground, color);
       const std::size_t k = static_cast<std::size_t>(j - held.j0) * static_cast<std::size_t>(held.width()) +
                             static_cast<std::size_t>(i - held.i0);
-      ground_nodes.normal[k] =
-          encode_normal(water ? ground.slope * water_clarity(ground.height_m) : ground.slope * exaggeration);
+      ground_nodes.normal[k] = encode_normal(water && !bare ? ground.slope * water_clarity(ground.height_m)
+                                                            : ground.slope * exaggeration);
       ground_nodes.albedo[k] = {encode_albedo(color.r), encode_albedo(color.g), encode_albedo(color.b),
                                 open_water ? 255 : 0};
     }
@@ -171,7 +174,8 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
 
 }  // namespace
 
-ShadingNodes make_shading_nodes(const Surface& surface, int level, int d, const NodeRect& nodes) {
+ShadingNodes make_shading_nodes(const Surface& surface, int level, int d, const NodeRect& nodes,
+                                const planet::Coloring* coloring) {
   ShadingNodes ground;
   ground.resize(nodes);
   const int cells = std::min(kTileCells, planet::nodes_per_side(level));
@@ -181,7 +185,7 @@ ShadingNodes make_shading_nodes(const Surface& surface, int level, int d, const 
       const TileId id{d, level, ti, tj};
       const NodeRect part{std::max(nodes.i0, id.first_i()), std::min(nodes.i1, id.first_i() + cells),
                           std::max(nodes.j0, id.first_j()), std::min(nodes.j1, id.first_j() + cells)};
-      shade_tile_part(surface, *surface.tile(id), part, nodes, ground);
+      shade_tile_part(surface, *surface.tile(id), part, nodes, coloring, ground);
     }
   }
   return ground;

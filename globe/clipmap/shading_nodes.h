@@ -11,6 +11,8 @@ namespace globe::clipmap {
 /// diamond's shading frame (shading_axis). The lattice's metric is taken from node directions every 16 cells
 /// and interpolated between: an error in the slope's direction below 1 % from level 8 on. Under water the
 /// relief fades with depth as the light does.
-ShadingNodes make_shading_nodes(const planet::Surface& surface, int level, int d, const NodeRect& nodes);
+/// @param coloring  null: the ground's own
+ShadingNodes make_shading_nodes(const planet::Surface& surface, int level, int d, const NodeRect& nodes,
+                                const planet::Coloring* coloring = nullptr);
 
 }  // namespace globe::clipmap

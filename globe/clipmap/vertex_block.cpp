@@ -46,7 +46,7 @@ PositionGrid place_nodes(const Surface& surface, int level, int d, const NodeRec
     const planet::TileValues<dvec3> directions = planet::node_directions(tile.id, 0);
     for (int j = part.j0; j <= part.j1; ++j) {
       for (int i = part.i0; i <= part.i1; ++i) {
-        const double h = surface.drawn_height(tile.height.at(i, j));
+        const double h = surface.mesh_height(tile.height.at(i, j));
         grid.values[index_in(nodes, i, j)] = glm::dvec4(place(directions.at(i, j), h), h);
       }
     }
@@ -101,7 +101,7 @@ VertexBlock interpolated_block(const Settings& settings, const Surface& surface,
   for_each_tile(surface, level, d, nodes, [&](const SurfaceTile& tile, const NodeRect& part) {
     for (int j = part.j0; j <= part.j1; ++j) {
       for (int i = part.i0; i <= part.i1; ++i)
-        block.height[index_in(nodes, i, j)] = static_cast<float>(surface.drawn_height(tile.height.at(i, j)));
+        block.height[index_in(nodes, i, j)] = static_cast<float>(surface.mesh_height(tile.height.at(i, j)));
     }
   });
   block.position.reserve(count_of(nodes));

@@ -12,6 +12,7 @@
 
 #include "globe/effects/cloud_map.h"
 #include "globe/effects/entry.h"
+#include "globe/effects/uniform_block.h"
 #include "globe/gl/buffer.h"
 #include "globe/gl/program.h"
 #include "globe/gl/texture.h"
@@ -132,8 +133,7 @@ Stand stand_of(const render::EffectView& view, double altitude_m) {
 /// A layer of clouds, its shadows, and the mist inside it.
 class Clouds final : public render::Effect {
  public:
-  Clouds(const CloudsParameters& parameters, const planet::Surface& surface)
-      : parameters_(parameters), block_(sizeof(CloudsBlock)), array_(gl::VertexArray::create()) {
+  Clouds(const CloudsParameters& parameters, const planet::Surface& surface) : parameters_(parameters) {
     if (parameters.image) image_ = read_lat_long_image(*parameters.image);
     equator_m_ = surface.ellipsoid().a;
   }
@@ -162,6 +162,7 @@ class Clouds final : public render::Effect {
   }
 
   void compile(const render::EffectHost& host) override {
+    array_ = gl::VertexArray::create();
     gl::ProgramSources sources;
     sources.files = {"effects/clouds_layer.vert", "effects/clouds_layer.frag"};
     sources.defines = {"RINGS " + std::to_string(kRings), "SECTORS " + std::to_string(kSectors),
@@ -223,8 +224,7 @@ class Clouds final : public render::Effect {
     block.round_sun =
         glm::vec4(glm::dvec4(glm::normalize(view.sun * rounding_of(view.surface.ellipsoid())), 0.0));
     block.mist = mist_at(view, stand, up, begins, gain);
-    block_.upload(0, &block, sizeof(block));
-    block_.bind_base(GL_UNIFORM_BUFFER, bindings.block);
+    block_.bind(block, bindings.block);
     texture_.bind(bindings.unit);
     detail_.bind(bindings.unit + 1);
   }
@@ -278,7 +278,7 @@ class Clouds final : public render::Effect {
   }
 
   std::size_t gpu_bytes() const override {
-    return block_.size() + indices_.size() + texture_.bytes() + detail_.bytes();
+    return block_.bytes() + indices_.size() + texture_.bytes() + detail_.bytes();
   }
 
  private:
@@ -352,7 +352,7 @@ class Clouds final : public render::Effect {
   CloudsParameters parameters_;
   double equator_m_;
   std::optional<LatLongImage> image_;  ///< without its pixels once the texture is made
-  gl::Buffer block_;
+  UniformBlock<CloudsBlock> block_;
   gl::VertexArray array_;
   gl::Buffer indices_;
   gl::Program program_;

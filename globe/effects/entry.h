@@ -24,6 +24,7 @@ struct EffectEntry {
   /// @param parameters  what kind.read returned
   /// Throws Refused.
   std::unique_ptr<render::Effect> (*make)(const std::any& parameters, const planet::Surface& surface);
+  bool draws_sea = false;  ///< over a floor that it needs bare (planet::SeaFloor)
 };
 
 /// The entry of an effect with parameters of one type: `Parameters read(scene::Fields&)` and a class made

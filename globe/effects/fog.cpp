@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "globe/effects/entry.h"
-#include "globe/gl/buffer.h"
+#include "globe/effects/uniform_block.h"
 
 namespace globe::effects {
 namespace {
@@ -37,7 +37,7 @@ struct FogBlock {
 class Fog final : public render::Effect {
  public:
   Fog(const FogParameters& parameters, const planet::Surface& surface)
-      : parameters_(parameters), radius_m_(surface.ellipsoid().mean_radius()), block_(sizeof(FogBlock)) {}
+      : parameters_(parameters), radius_m_(surface.ellipsoid().mean_radius()) {}
 
   render::EffectShader shader() const override {
     render::EffectShader shader;
@@ -61,18 +61,17 @@ class Fog final : public render::Effect {
     const FogBlock block{glm::vec4(parameters_.color, static_cast<float>(extinction())),
                          glm::vec4(glm::dvec4(parameters_.base_m, parameters_.thickness_m,
                                               view.height_m - parameters_.base_m, radius_m_))};
-    block_.upload(0, &block, sizeof(block));
-    block_.bind_base(GL_UNIFORM_BUFFER, bindings.block);
+    block_.bind(block, bindings.block);
   }
 
-  std::size_t gpu_bytes() const override { return block_.size(); }
+  std::size_t gpu_bytes() const override { return block_.bytes(); }
 
  private:
   double extinction() const { return kContrast / parameters_.visibility_m; }
 
   FogParameters parameters_;
   double radius_m_;
-  gl::Buffer block_;
+  UniformBlock<FogBlock> block_;
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include "globe/effects/entry.h"
 #include "globe/effects/lat_long_image.h"
 #include "globe/effects/planet_texture.h"
-#include "globe/gl/buffer.h"
+#include "globe/effects/uniform_block.h"
 #include "globe/gl/texture.h"
 
 namespace globe::effects {
@@ -32,9 +32,7 @@ struct LightmapBlock {
 class Lightmap final : public render::Effect {
  public:
   Lightmap(const LightmapParameters& parameters, const planet::Surface&)
-      : parameters_(parameters),
-        image_(read_lat_long_image(parameters.image)),
-        block_(sizeof(LightmapBlock)) {}
+      : parameters_(parameters), image_(read_lat_long_image(parameters.image)) {}
 
   render::EffectShader shader() const override {
     render::EffectShader shader;
@@ -54,17 +52,16 @@ class Lightmap final : public render::Effect {
     if (light_.id() == 0) light_ = planet_texture(image_, GL_SRGB8_ALPHA8);
     const double pixel = 2.0 * view.camera.tan_y() / view.target.height();
     const LightmapBlock block{glm::vec4(glm::dvec4(parameters_.strength, pixel, 0.0, 0.0))};
-    block_.upload(0, &block, sizeof(block));
-    block_.bind_base(GL_UNIFORM_BUFFER, bindings.block);
+    block_.bind(block, bindings.block);
     light_.bind(bindings.unit);
   }
 
-  std::size_t gpu_bytes() const override { return block_.size() + light_.bytes(); }
+  std::size_t gpu_bytes() const override { return block_.bytes() + light_.bytes(); }
 
  private:
   LightmapParameters parameters_;
   LatLongImage image_;  ///< without its pixels once the texture is made
-  gl::Buffer block_;
+  UniformBlock<LightmapBlock> block_;
   gl::Texture light_;
 };
 

@@ -1,5 +1,7 @@
 #include "globe/effects/list.h"
 
+#include <algorithm>
+
 #include "globe/base/error.h"
 
 // Tests build this file with other lists.
@@ -26,6 +28,14 @@ std::vector<scene::EffectKind> effect_kinds() {
   std::vector<scene::EffectKind> kinds;
   for (const EffectEntry& entry : all_effects()) kinds.push_back(entry.kind);
   return kinds;
+}
+
+bool draws_sea(const scene::Scene& scene) {
+  const std::span<const EffectEntry> entries = all_effects();
+  return std::any_of(entries.begin(), entries.end(), [&](const EffectEntry& entry) {
+    return entry.draws_sea && std::any_of(scene.effects.begin(), scene.effects.end(),
+                                          [&](const auto& effect) { return effect.name == entry.kind.name; });
+  });
 }
 
 std::vector<render::NamedEffect> make_effects(const scene::Scene& scene, const planet::Surface& surface) {

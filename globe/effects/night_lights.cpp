@@ -8,6 +8,7 @@
 #include "globe/effects/entry.h"
 #include "globe/effects/lat_long_image.h"
 #include "globe/effects/planet_texture.h"
+#include "globe/effects/uniform_block.h"
 #include "globe/gl/buffer.h"
 #include "globe/gl/texture.h"
 
@@ -40,9 +41,7 @@ struct NightLightsBlock {
 class NightLights final : public render::Effect {
  public:
   NightLights(const NightLightsParameters& parameters, const planet::Surface&)
-      : parameters_(parameters),
-        image_(read_lat_long_image(parameters.image)),
-        block_(sizeof(NightLightsBlock)) {}
+      : parameters_(parameters), image_(read_lat_long_image(parameters.image)) {}
 
   render::EffectShader shader() const override {
     render::EffectShader shader;
@@ -71,17 +70,16 @@ class NightLights final : public render::Effect {
     const NightLightsBlock block{
         glm::vec4(glm::dvec4(parameters_.intensity, parameters_.threshold, std::sin(kLit), std::sin(kFull))),
         glm::vec4(glm::dvec4(pixel, 0.0, 0.0, 0.0))};
-    block_.upload(0, &block, sizeof(block));
-    block_.bind_base(GL_UNIFORM_BUFFER, bindings.block);
+    block_.bind(block, bindings.block);
     lamps_.bind(bindings.unit);
   }
 
-  std::size_t gpu_bytes() const override { return block_.size() + lamps_.bytes(); }
+  std::size_t gpu_bytes() const override { return block_.bytes() + lamps_.bytes(); }
 
  private:
   NightLightsParameters parameters_;
   LatLongImage image_;  ///< without its pixels once the texture is made
-  gl::Buffer block_;
+  UniformBlock<NightLightsBlock> block_;
   gl::Texture lamps_;
 };
 

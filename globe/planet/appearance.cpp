@@ -24,6 +24,10 @@ constexpr vec3 kDryRock{0.25f, 0.165f, 0.105f};
 constexpr vec3 kSnow{0.80f, 0.83f, 0.87f};
 constexpr vec3 kShallows{0.045f, 0.155f, 0.165f};
 constexpr vec3 kDeepSea{0.006f, 0.022f, 0.060f};
+constexpr vec3 kSeaSand{0.33f, 0.29f, 0.205f};
+constexpr vec3 kSeaMud{0.115f, 0.105f, 0.080f};
+constexpr vec3 kSeaRock{0.085f, 0.082f, 0.070f};
+constexpr vec3 kSeaWeed{0.035f, 0.058f, 0.024f};
 
 float step_up(float from, float to, float x) { return glm::smoothstep(from, to, x); }
 
@@ -31,6 +35,19 @@ vec3 water(float height) {
   const float near_shore = std::exp(height / 14.0f);
   const float shelf = std::exp(height / 220.0f);
   return mix(mix(kDeepSea, vec3(0.010f, 0.048f, 0.085f), shelf), kShallows, near_shore);
+}
+
+/// The sea's floor: sand by the shore with meadows of weed, mud farther down, rock where it is steep.
+vec3 sea_floor(const Ground& g) {
+  const auto depth = -static_cast<float>(g.height_m);
+  const auto slope = static_cast<float>(glm::length(g.slope));
+  const float mottle = g.mottle;
+  const float grown = step_up(0.12f, 0.42f, mottle - 0.2f * g.prominence) * step_up(1.5f, 5.0f, depth) *
+                      (1.0f - step_up(25.0f, 45.0f, depth));
+  vec3 color =
+      mix(kSeaSand, kSeaMud, step_up(15.0f, 120.0f, depth + 30.0f * mottle)) * (1.0f + 0.18f * mottle);
+  color = mix(color, kSeaWeed, 0.85f * grown);
+  return mix(color, kSeaRock * (1.0f + 0.3f * mottle), step_up(0.35f, 0.75f, slope * (1.0f + 0.3f * mottle)));
 }
 
 /// Height of the lower limit of lasting snow, metres: Earth's, 5000 in the horse latitudes, 3000 in the Alps,
@@ -45,7 +62,7 @@ vec3 ground_colors(const Ground& g) {
   const auto slope = static_cast<float>(glm::length(g.slope));
   const auto sine = static_cast<float>(std::abs(g.sin_latitude));
   if (g.has_sea && height < 0.0f) {
-    return mix(water(height), kSnow * 0.85f, step_up(0.955f, 0.975f, sine + 0.012f * g.mottle));  // pack ice
+    return mix(water(height), kSnow * 0.85f, pack_ice(g));
   }
 
   const float mottle = g.mottle;
@@ -123,7 +140,20 @@ vec3 mapped_colors(const Ground& g) {
 
 }  // namespace
 
+float pack_ice(const Ground& g) {
+  if (g.has_color) {  // the map shows it bright and without colour
+    const float strongest = std::max({g.color.x, g.color.y, g.color.z, 1e-4f});
+    const float gray = std::min({g.color.x, g.color.y, g.color.z}) / strongest;
+    return step_up(0.22f, 0.4f, luminance(g.color)) * step_up(0.6f, 0.8f, gray);
+  }
+  return step_up(0.955f, 0.975f, static_cast<float>(std::abs(g.sin_latitude)) + 0.012f * g.mottle);
+}
+
 vec3 albedo(const Ground& ground) {
+  if (ground.bare_floor && ground.height_m < 0.0) {
+    const vec3 ice = ground.has_color ? ground.color : kSnow * 0.85f;
+    return glm::clamp(mix(sea_floor(ground), ice, pack_ice(ground)), 0.0f, 1.0f);
+  }
   const float shade = std::clamp(
       1.0f + 0.5f * static_cast<float>(ground.cavity) + 0.20f * ground.mottle + 0.12f * ground.prominence,
       0.55f, 1.5f);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -20,13 +21,20 @@ struct Ground {
   float mottle = 0;
   glm::vec3 color{0.0f};  ///< ground colour of the map, linear light; ignored unless has_color
   bool has_color = false;
-  bool has_sea = false;  ///< ground below height 0 is under water
-  bool airless = false;  ///< no plants, no snow
+  bool has_sea = false;     ///< ground below height 0 is under water
+  bool bare_floor = false;  ///< that ground itself is to be seen, not the water
+  bool airless = false;     ///< no plants, no snow
 };
 
 /// Albedo of the ground, linear light, [0, 1] a channel: the map's colour with the detail it is too coarse to
 /// hold, or height-and-slope colours (Christopoulos 5.4.1) where there is no map.
 glm::vec3 albedo(const Ground& ground);
+
+/// A look of one's own: an albedo in place of the one that albedo() gives.
+using Coloring = std::function<glm::vec3(const Ground& ground, const glm::vec3& albedo)>;
+
+/// Share of pack ice over ground below the sea, [0, 1].
+float pack_ice(const Ground& ground);
 
 /// Slope of the drawn ground (the sea's surface where it lies above the ground) from a node's neighbours.
 struct GroundSlope {

@@ -74,6 +74,7 @@ Ground tile_ground(const Surface& surface, const SurfaceTile& tile, int i, int j
   ground.color = {channel(Channel::kRed), channel(Channel::kGreen), channel(Channel::kBlue)};
   ground.has_color = surface.has_colors();
   ground.has_sea = surface.has_sea();
+  ground.bare_floor = surface.has_bare_floor();
   ground.airless = surface.is_airless();
   return ground;
 }

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "globe/base/srgb.h"
 #include "globe/planet/directions.h"
 #include "globe/planet/inset_stack.h"
-#include "globe/base/srgb.h"
 #include "globe/planet/measure.h"
 #include "globe/planet/synthesis.h"
 #include "globe/planet/tile_nodes.h"
@@ -66,24 +66,26 @@ std::size_t Surface::TileHash::operator()(const TileId& id) const {
 }
 
 std::shared_ptr<const Surface> Surface::builtin(std::uint64_t seed, std::size_t cache_bytes,
-                                                double exaggeration) {
+                                                double exaggeration, SeaFloor sea_floor) {
   return std::shared_ptr<const Surface>(
-      new Surface(builtin_info(seed), nullptr, seed, cache_bytes, exaggeration));
+      new Surface(builtin_info(seed), nullptr, seed, cache_bytes, exaggeration, sea_floor));
 }
 
 std::shared_ptr<const Surface> Surface::from_dataset(std::shared_ptr<const Dataset> dataset,
-                                                     std::size_t cache_bytes, double exaggeration) {
+                                                     std::size_t cache_bytes, double exaggeration,
+                                                     SeaFloor sea_floor) {
   PlanetInfo info = dataset->info();
   return std::shared_ptr<const Surface>(
-      new Surface(std::move(info), std::move(dataset), 1, cache_bytes, exaggeration));
+      new Surface(std::move(info), std::move(dataset), 1, cache_bytes, exaggeration, sea_floor));
 }
 
 Surface::Surface(PlanetInfo info, std::shared_ptr<const Dataset> dataset, std::uint64_t seed,
-                 std::size_t cache_bytes, double exaggeration)
+                 std::size_t cache_bytes, double exaggeration, SeaFloor sea_floor)
     : info_(std::move(info)),
       dataset_(std::move(dataset)),
       seed_(seed),
       exaggeration_(exaggeration),
+      sea_floor_(sea_floor),
       cache_bytes_(cache_bytes) {
   if (dataset_) {
     const LayerInfo* heights = dataset_->layer("height");

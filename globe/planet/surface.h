@@ -36,6 +36,12 @@ enum class Channel {
 };
 inline constexpr std::size_t kChannels = 11;
 
+/// How ground under a sea is drawn: as the sea's flat surface, or bare, for a sea that is drawn over it.
+enum class SeaFloor { kFlooded, kBare };
+
+/// No sea drawn over a bare floor stands farther from height 0 than this, metres.
+inline constexpr double kHighestWave = 40.0;
+
 class InsetStack;
 struct Synthesis;
 struct TileParts;
@@ -82,11 +88,13 @@ class Surface {
   /// The built-in planet.
   /// @param exaggeration  of the ground where it is drawn (drawn_height), >= 0; other heights stay true
   static std::shared_ptr<const Surface> builtin(std::uint64_t seed, std::size_t cache_bytes = kDefaultCache,
-                                                double exaggeration = 1.0);
+                                                double exaggeration = 1.0,
+                                                SeaFloor sea_floor = SeaFloor::kFlooded);
   /// A planet made by `globe convert`.
   static std::shared_ptr<const Surface> from_dataset(std::shared_ptr<const Dataset> dataset,
                                                      std::size_t cache_bytes = kDefaultCache,
-                                                     double exaggeration = 1.0);
+                                                     double exaggeration = 1.0,
+                                                     SeaFloor sea_floor = SeaFloor::kFlooded);
 
   static constexpr std::size_t kDefaultCache = std::size_t{384} << 20;
 
@@ -134,9 +142,15 @@ class Surface {
   /// True when ground below height 0 lies under a sea, which is then drawn as a flat surface at height 0.
   bool is_airless() const { return info_.body == "moon"; }
   bool has_sea() const { return dataset_ == nullptr || info_.body == "earth"; }
+  /// The ground below height 0 is drawn itself, for a sea that is drawn over it.
+  bool has_bare_floor() const { return has_sea() && sea_floor_ == SeaFloor::kBare; }
   /// Height at which ground of a height is drawn: at 0 where it lies under a sea.
   double drawn_height(double height_m) const {
     return has_sea() && height_m < 0.0 ? 0.0 : height_m * exaggeration_;
+  }
+  /// The same of the ground's mesh, which is the sea's floor where that is bare.
+  double mesh_height(double height_m) const {
+    return has_bare_floor() ? height_m * exaggeration_ : drawn_height(height_m);
   }
   double exaggeration() const { return exaggeration_; }
   /// Length of a level-0 edge along the mean sphere, metres; a level-L edge is about 2^-L of it.
@@ -146,7 +160,7 @@ class Surface {
 
  private:
   Surface(PlanetInfo info, std::shared_ptr<const Dataset> dataset, std::uint64_t seed,
-          std::size_t cache_bytes, double exaggeration);
+          std::size_t cache_bytes, double exaggeration, SeaFloor sea_floor);
 
   struct Entry {
     TileId id;
@@ -183,6 +197,7 @@ class Surface {
   std::shared_ptr<const Dataset> dataset_;  ///< null for the built-in planet
   std::uint64_t seed_;
   double exaggeration_;
+  SeaFloor sea_floor_;
   std::optional<BuiltinPlanet> builtin_;  ///< where there is no data set
   std::unique_ptr<const InsetStack> insets_;
   int data_level_ = 0;

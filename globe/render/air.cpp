@@ -6,13 +6,6 @@
 #include <glm/vec4.hpp>
 
 namespace globe::render {
-namespace {
-
-constexpr double kTwilightCosine = 0.3;    ///< of the sun's zenith angle: lower, the haze is sampled in full
-constexpr double kTwilightHeight = 300.0;  ///< km; from higher up the terminator is a narrow band
-
-}  // namespace
-
 namespace shader {
 
 using namespace glm;
@@ -51,21 +44,10 @@ glm::vec2 sky_map_cosines(const glm::vec2& place, float eye_radius_km, float gro
 }
 
 glm::vec3 haze(const AirRay& ray, int steps) {
-  const auto sun_at = [&](float distance, float& cos_sun) {
-    const glm::vec3 place = ray.eye + ray.direction * distance;
-    const float radius = glm::length(place);
-    cos_sun = glm::dot(place, ray.sun) / radius;
-    return sun_transmittance(glm::max(radius - ray.ground, 0.0f), cos_sun, ray.ground);
-  };
-  float cos_sun_at_eye = 0, cos_sun = 0;
-  const glm::vec3 at_eye = sun_at(0.0f, cos_sun_at_eye), at_end = sun_at(ray.to, cos_sun);
+  const float cos_sun = glm::dot(glm::normalize(ray.eye + ray.direction * ray.to), ray.sun);
   glm::vec3 transmitted;
-  return shader::haze(ray.eye, ray.direction, ray.from, ray.to, ray.sun, at_eye, at_end, cos_sun, ray.ground,
-                      steps, transmitted);
-}
-
-bool is_twilight(double height_km, double cos_sun) {
-  return cos_sun < kTwilightCosine && height_km < kTwilightHeight;
+  return shader::light_before(ray.eye, ray.direction, ray.from, ray.to, ray.sun, cos_sun, ray.ground, steps,
+                              transmitted);
 }
 
 float air_column(float height_km, float cos_zenith, float ground_radius_km, float scale_height_km) {

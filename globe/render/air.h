@@ -9,9 +9,9 @@ namespace globe::render {
 /// How finely the light of the air is summed up, each a knob of accuracy (`globe accuracy --only sky`).
 /// @approximation sky.steps, sky.map, sky.haze
 struct AirSteps {
-  int haze = 4;             ///< samples between the eye and a vertex, twice as many in twilight
-  int sky = 16;             ///< samples along a ray of the sky's map
-  glm::ivec2 map{32, 128};  ///< its texels across azimuth and up from the horizon
+  int haze = 4;            ///< samples between the eye and a vertex, twice as many in twilight
+  int sky = 16;            ///< samples along a ray of the sky's map
+  glm::ivec2 map{96, 64};  ///< its texels across azimuth and up from the horizon
 };
 
 /// Share of sunlight that reaches a height (km) when the sun stands at a zenith angle; the very code of
@@ -39,14 +39,9 @@ glm::vec3 with_mie(const glm::vec4& texel, float cos_angle);
 glm::vec2 sky_map_place(const glm::vec2& cosines, float eye_radius_km, float ground_radius_km);
 glm::vec2 sky_map_cosines(const glm::vec2& place, float eye_radius_km, float ground_radius_km);
 
-/// Light of the air before the ground at the end of a ray, as vertices have it outside twilight.
+/// Light of the air before the ground at the end of a ray, as vertices have it: where the sun is low at one
+/// end of the stretch, with twice as many samples, each with a sun of its own.
 glm::vec3 haze(const AirRay& ray, int steps);
-
-/// Whether the haze before an eye is summed up with the sun's share of every sample, as sky_light() does with
-/// twice as many: in twilight it is not linear along a ray.
-///
-/// @param cos_sun  of the sun's zenith angle at the eye
-bool is_twilight(double height_km, double cos_sun);
 
 /// Column of air with a scale height above a point toward a zenith angle, km of sea-level air.
 /// @approximation sky.columns

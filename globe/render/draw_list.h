@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstdint>
@@ -56,6 +57,7 @@ struct Batch {
   Look look;
   int rim = 0;                        ///< edges on the rim: which index list
   int rim_corners = 0;                ///< corners that touch it
+  bool water = false;                 ///< a sea is to be drawn over some of each
   std::vector<glm::ivec4> instances;  ///< corner 0 from the window's first node (i, j), ±1 for the half, slot
 };
 
@@ -64,6 +66,11 @@ struct DrawList {
   std::vector<SlotBlock> slots;
   std::vector<Batch> batches;
   std::size_t patches = 0;
+
+  /// A sea is to be drawn over any of them.
+  bool has_water() const {
+    return std::any_of(batches.begin(), batches.end(), [](const Batch& batch) { return batch.water; });
+  }
 };
 
 /// Chooses the patches in view, finest level first.

@@ -3,11 +3,14 @@
 #include <cstddef>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "globe/gl/framebuffer.h"
+#include "globe/planet/appearance.h"
 #include "globe/planet/surface.h"
 #include "globe/render/air.h"
 #include "globe/render/camera.h"
@@ -46,8 +49,9 @@ struct EffectView {
   const Instant& instant;
   glm::dvec3 sun;         ///< unit vector toward it, ECEF
   double height_m;        ///< of the eye above the ellipsoid
-  double above_ground_m;  ///< of the eye, at least what a camera counts as
-  int active = 0;         ///< effects of the view, as EffectShaders has it; when passes are drawn
+  double above_ground_m;  ///< of the eye, at least what a camera counts as; under water at most its depth
+  std::optional<double> water_m;  ///< height of the water over or under the eye, where an effect draws water
+  int active = 0;                 ///< effects of the view, as EffectShaders has it; when passes are drawn
 };
 
 /// Whether an effect has anything to do in a view, and why: for people, a few words.
@@ -92,7 +96,8 @@ enum class Stage {
 /// One thing that a scene can call for besides the ground and the plain air (DESIGN section 6).
 ///
 /// Named in no scene, it is never made. In a view that judge() finds it not active in, nothing of it runs: no
-/// uniform is set, no texture made, no pass drawn. All of its state follows from the view's Instant.
+/// uniform is set, no texture made, no pass drawn. All of its state follows from the view's Instant. Making one
+/// needs no OpenGL.
 class Effect {
  public:
   Effect() = default;
@@ -106,6 +111,13 @@ class Effect {
   /// Whether there is anything of it to see in a view. Cheap, a function of the view alone.
   virtual Verdict judge(const EffectView& view) const = 0;
 
+  /// The look of the ground, where the effect gives it another; the same all the time.
+  virtual std::shared_ptr<const planet::Coloring> coloring() const { return nullptr; }
+
+  /// Height above the ellipsoid of the water that it draws over or under the eye, waves included; nothing
+  /// where there is none. Of the view's members water_m is not known yet.
+  virtual std::optional<double> water_height_m(const EffectView& /*view*/) const { return std::nullopt; }
+
   /// Has the programs of its own passes compiled; once, before the first frame.
   virtual void compile(const EffectHost& /*host*/) {}
   /// Before anything of a view is drawn in which it is active: makes what is missing, brings it to the
@@ -116,6 +128,8 @@ class Effect {
   /// function is put back.
   virtual void draw(const EffectView& /*view*/) {}
 
+  /// Draw calls and full passes that draw() makes.
+  virtual int passes() const { return stage() == Stage::kNone ? 0 : 1; }
   /// Held at present.
   virtual std::size_t gpu_bytes() const { return 0; }
 };

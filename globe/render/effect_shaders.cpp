@@ -56,13 +56,12 @@ EffectShaders::EffectShaders(std::span<const NamedEffect> effects, gl::ShaderRea
     ++next.block;
     next.unit += static_cast<unsigned>(shader.textures);
     if (!shader.file.empty()) includes += "#include \"" + shader.file + "\"\n";
-    keeps_light_ = keeps_light_ || named.effect->stage() != Stage::kNone;
+    may_keep_light_ = may_keep_light_ || named.effect->stage() != Stage::kNone;
   }
-  if (keeps_light_) defines_.emplace_back("KEEP_LIGHT");
+  if (may_keep_light_) defines_.emplace_back("KEEP_LIGHT");
   if (includes.empty()) return;
   defines_.emplace_back("EFFECTS");
-  text_ = "#include \"lib/place.glsl\"\n" + includes + "layout(location = " + std::to_string(kActiveEffects) +
-          ") uniform int active_effects;\n";
+  text_ = "#include \"lib/place.glsl\"\n#include \"lib/active_effects.glsl\"\n" + includes;
   for (const Part& part : kParts) {
     text_ += std::string(part.head) + "\n";
     for (std::size_t k = 0; k < effects.size(); ++k) {

@@ -31,13 +31,17 @@ class EffectShaders {
   EffectShaders() = default;
   explicit EffectShaders(std::span<const NamedEffect> effects, gl::ShaderReader reader = gl::read_shader);
 
-  /// Location of `uniform int active_effects`, one bit an effect, in programs with has_parts().
+  /// Location of `uniform int active_effects` (shaders/lib/active_effects.glsl) in programs of the ground and
+  /// the sky: one bit an effect, and kKeepLight.
   static constexpr int kActiveEffects = 10;
+  static constexpr int kKeepLight = 1 << 30;
 
   /// Any effect adds to the programs of others.
   bool has_parts() const { return !text_.empty(); }
-  /// Any has a pass of its own: then pictures are drawn as light and toned at the end.
-  bool keeps_light() const { return keeps_light_; }
+  /// Any has a pass of its own: where one is active the picture is drawn as light and toned at the end.
+  bool may_keep_light() const { return may_keep_light_; }
+  /// Programs of the ground and the sky have the uniform.
+  bool is_used() const { return has_parts() || may_keep_light_; }
 
   /// Reads shaders/ with "effects.glsl" and what is replaced.
   gl::ShaderReader reader() const;
@@ -48,7 +52,7 @@ class EffectShaders {
 
  private:
   std::string text_;
-  bool keeps_light_ = false;
+  bool may_keep_light_ = false;
   std::vector<std::string> defines_;
   std::vector<std::pair<std::string, std::string>> replaced_;
   std::vector<Bindings> bindings_;

@@ -41,12 +41,19 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
   for (std::size_t k = 0; k < kLooks.size(); ++k)
     ground_[k] = ground_program(kLooks[k], textures(), tinted, settings_.air.haze, effect_shaders_);
   if (!settings_.background) sky_.emplace(has_air(surface_->info()), settings_.air, effect_shaders_);
-  if (effect_shaders_.keeps_light()) light_.emplace();
-  for (const NamedEffect& named : effects_) named.effect->compile(effect_host());
+  if (effect_shaders_.may_keep_light()) light_.emplace();
+  for (const NamedEffect& named : effects_) {
+    named.effect->compile(effect_host());
+    if (auto coloring = named.effect->coloring()) coloring_ = std::move(coloring);
+  }
 }
 
 double GlobeRenderer::height_above_ground(const glm::dvec3& position, bool wait) const {
   return clipmap::height_above_ground(settings_.clipmap, *surface_, position, settings_.max_level, wait);
+}
+
+double GlobeRenderer::nearest_drawn(const glm::dvec3& position, bool wait) const {
+  return clipmap::nearest_drawn(*surface_, position, height_above_ground(position, wait));
 }
 
 void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
@@ -63,10 +70,11 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
   std::vector<Batch> batches;
   batches.reserve(kLooks.size());
   for (const Look& look : kLooks) {
-    batches.push_back({look, look.kind == Kind::kRim ? 1 : 0, 0, {list.batches.front().instances.front()}});
+    batches.push_back(
+        {look, look.kind == Kind::kRim ? 1 : 0, 0, false, {list.batches.front().instances.front()}});
   }
   list.batches = std::move(batches);
-  (light_ ? light_->in_place_of(target) : target).bind();
+  target.bind();
   draw_ground(list);
 }
 
@@ -83,14 +91,13 @@ void GlobeRenderer::begin_frame(const glm::dvec3& position, const glm::dvec3& su
   verdicts_.assign(effects_.size(), {});
   sun_ = sun;
   auto begin = std::chrono::steady_clock::now();
-  above_m_ =
-      std::max(height_above_ground(position, wait), clipmap::least_above_ground(surface_->ellipsoid()));
+  above_m_ = nearest_drawn(position, wait);
   const auto finest =
       clipmap::finest_level(settings_.clipmap, surface_->root_edge(), above_m_, settings_.max_level);
   const geo::Geodetic place = geo::geodetic_from_ecef(surface_->ellipsoid(), position);
   clipmap::Target wanted{geo::normal_from_degrees(place.lat_deg, place.lon_deg),
                          finest.level,
-                         {sun, settings_.show == Show::kNormals}};
+                         {sun, settings_.show == Show::kNormals, coloring_}};
   // Frames in real time keep the light they have while the sun stands still, near enough.
   if (!wait && loader_.state() && glm::distance(sun, state().target.lighting.sun) < kSunMoved)
     wanted.lighting = state().target.lighting;
@@ -127,11 +134,16 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
 
   view_.upload(0, &view, sizeof(view));
   view_.bind_base(GL_UNIFORM_BUFFER, 0);
-  const gl::Framebuffer& picture = light_ ? light_->in_place_of(target) : target;
   const double height_m = geo::geodetic_from_ecef(surface_->ellipsoid(), camera.position).h_m;
   const EffectHost host = effect_host();
-  EffectView effect_view{host, camera, view, *surface_, list, picture, instant_, sun_, height_m, above_m_};
+  EffectView effect_view{host,     camera, view,     *surface_, list, target,
+                         instant_, sun_,   height_m, above_m_,  {},   0};
+  for (const NamedEffect& named : effects_) {
+    if (const auto water_m = named.effect->water_height_m(effect_view)) effect_view.water_m = water_m;
+  }
   effect_view.active = active_ = prepare_effects(effect_view);
+  const bool keep_light = (active_ & EffectShaders::kKeepLight) != 0;
+  const gl::Framebuffer& picture = keep_light ? light_->in_place_of(target) : target;
   if (sky_) sky_->prepare();
 
   picture.bind();
@@ -147,15 +159,18 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
     glDisable(GL_CULL_FACE);
   }
   const glm::vec3 shown = settings_.background.value_or(glm::vec3(0.0f));
-  const glm::vec3 background = light_ ? light_shown_as(shown) : shown;
+  const glm::vec3 background = keep_light ? light_shown_as(shown) : shown;
   picture.clear_color(background.r, background.g, background.b, 1.0f);
   picture.clear_depth(0.0f);
 
   draw_ground(list);
   if (sky_) sky_->draw(view, active_);
-  if (!light_) return;
-  for (const Stage stage : {Stage::kHeavens, Stage::kSurface, Stage::kLayer, Stage::kLens})
-    draw_passes(effect_view, stage);
+  if (!keep_light) return;
+  const EffectView light_view{host,     camera, view,     *surface_, list,                picture,
+                              instant_, sun_,   height_m, above_m_,  effect_view.water_m, active_};
+  for (const Stage stage : {Stage::kHeavens, Stage::kSurface, Stage::kLayer, Stage::kLens}) {
+    if (stage == Stage::kSurface || !settings_.background) draw_passes(light_view, stage);
+  }
   light_->show(target);
 }
 
@@ -166,6 +181,7 @@ int GlobeRenderer::prepare_effects(const EffectView& view) {
     Verdict verdict = effect.judge(view);
     if (verdict.active) {
       active |= 1 << k;
+      if (effect.stage() != Stage::kNone) active |= EffectShaders::kKeepLight;
       effect.prepare(view, effect_shaders_.bindings(k));
     }
     if (!verdicts_[k].active) verdicts_[k] = std::move(verdict);
@@ -192,8 +208,11 @@ EffectHost GlobeRenderer::effect_host() const {
 
 std::vector<EffectState> GlobeRenderer::effect_states() const {
   std::vector<EffectState> states;
-  for (std::size_t k = 0; k < effects_.size(); ++k)
-    states.push_back({effects_[k].name, verdicts_[k], effects_[k].effect->gpu_bytes()});
+  for (std::size_t k = 0; k < effects_.size(); ++k) {
+    const Effect& effect = *effects_[k].effect;
+    states.push_back({effects_[k].name, verdicts_[k], effect.gpu_bytes(), effect.passes(),
+                      !effect.shader().file.empty() || !effect.shader().replaced.empty()});
+  }
   return states;
 }
 
@@ -214,14 +233,14 @@ void GlobeRenderer::draw_ground(const DrawList& list) {
 }
 
 void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay) {
-  patches_.draw(list, textures(), [&](const Look& look) {
-    const gl::Program& program =
-        ground_[static_cast<std::size_t>(std::find(kLooks.begin(), kLooks.end(), look) - kLooks.begin())];
+  patches_.draw(list, textures(), [&](const Batch& batch) {
+    const gl::Program& program = ground_[static_cast<std::size_t>(
+        std::find(kLooks.begin(), kLooks.end(), batch.look) - kLooks.begin())];
     if (settings_.show != Show::kGround || settings_.wireframe) {
       program.set(3, overlay);
       program.set(4, static_cast<int>(settings_.show));
     }
-    if (effect_shaders_.has_parts()) program.set(EffectShaders::kActiveEffects, active_);
+    if (effect_shaders_.is_used()) program.set(EffectShaders::kActiveEffects, active_);
     return &program;
   });
 }

@@ -63,6 +63,8 @@ struct EffectState {
   std::string name;
   Verdict verdict;  ///< of the views, the first one in which it was active
   std::size_t gpu_bytes = 0;
+  int passes = 0;           ///< of its own in a view in which it is active
+  bool in_shaders = false;  ///< the ground's and the sky's programs have a part of it
 };
 
 /// Draws a planet's surface: hexagonal clipmaps on HTM (DESIGN section 5), a plain sky, and the effects that
@@ -96,6 +98,8 @@ class GlobeRenderer {
   void set_instant(const Instant& instant) { instant_ = instant; }
   /// Of the frame begun last, its views so far; in the order of the effects.
   std::vector<EffectState> effect_states() const;
+  /// Of the picture of light that effects with passes are drawn over; 0 without such.
+  std::size_t light_bytes() const { return light_ ? light_->gpu_bytes() : 0; }
 
   /// Of the frame begun last, its views so far.
   const FrameStats& frame_stats() const { return stats_; }
@@ -114,6 +118,8 @@ class GlobeRenderer {
   /// @param wait  true: of the level it wants, which may have to be synthesised first; false: of what is at
   /// hand
   double height_above_ground(const glm::dvec3& position, bool wait = true) const;
+  /// clipmap::nearest_drawn of that: what the near plane goes by, too.
+  double nearest_drawn(const glm::dvec3& position, bool wait = true) const;
 
   /// The clipmap's textures on the GPU.
   const ClipmapTextures& textures() const { return loader_.textures(); }
@@ -133,8 +139,9 @@ class GlobeRenderer {
   RenderSettings settings_;
   std::vector<NamedEffect> effects_;
   EffectShaders effect_shaders_;
-  std::vector<Verdict> verdicts_;  ///< of effects_, in the frame begun last
-  int active_ = 0;                 ///< effects of the view being drawn
+  std::vector<Verdict> verdicts_;                     ///< of effects_, in the frame begun last
+  int active_ = 0;                                    ///< effects of the view being drawn
+  std::shared_ptr<const planet::Coloring> coloring_;  ///< the last one of effects_; null: none
   Instant instant_;
   PatchDrawer patches_;
   gl::Buffer view_;

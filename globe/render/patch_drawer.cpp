@@ -54,7 +54,7 @@ void PatchDrawer::draw(const DrawList& list, const ClipmapTextures& textures,
   for (const Batch& batch : list.batches) {
     const std::size_t from = first;
     first += batch.instances.size();
-    const gl::Program* program = program_for(batch.look);
+    const gl::Program* program = program_for(batch);
     if (program == nullptr) continue;
     if (bound != program) {
       program->use();

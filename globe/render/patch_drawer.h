@@ -24,8 +24,8 @@ class PatchDrawer {
   /// What a view's patches and their slots are, for the calls of draw() that follow.
   void upload(const DrawList& list);
 
-  /// The program for a look; called as programs change. Null: its patches are left out.
-  using ProgramFor = std::function<const gl::Program*(const Look& look)>;
+  /// The program for a batch; called as programs change. Null: its patches are left out.
+  using ProgramFor = std::function<const gl::Program*(const Batch& batch)>;
   /// Draws the list uploaded last. Programs are built from shaders/clipmap.vert: their uniforms `window` and
   /// `rim` are set here.
   void draw(const DrawList& list, const ClipmapTextures& textures, const ProgramFor& program_for) const;

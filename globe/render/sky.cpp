@@ -15,6 +15,7 @@ namespace {
 constexpr int kCapSides = 64;  ///< of the polygon around a disc of the sky
 constexpr float kOutside =
     1.05f;  ///< radii of the air: from nearer the disc of air would be as good as the screen
+constexpr float kHighestAir = 100.0f;  ///< km: of the plain air and of any that takes its place
 constexpr float kSunRadius = 0.0047f;  ///< radians, rounded up: sky.frag draws the disc's edge
 
 gl::Program program_of(const char* fragment_shader, int steps, const EffectShaders& effects) {
@@ -36,7 +37,7 @@ glm::vec4 cap_around(const glm::vec3& axis, float tangent) {
 
 Sky::Sky(bool air, const AirSteps& steps, const EffectShaders& effects)
     : texels_(steps.map),
-      has_parts_(effects.has_parts()),
+      has_effects_(effects.is_used()),
       array_(gl::VertexArray::create()),
       program_(program_of("sky.frag", steps.sky, effects)) {
   if (!air) return;
@@ -64,11 +65,11 @@ void Sky::draw(const ViewBlock& view, int active) const {
   if (map_program_) map_.color().bind(4);
   program_.use();
   program_.set(0, glm::vec2(texels_));
-  if (has_parts_) program_.set(EffectShaders::kActiveEffects, active);
+  if (has_effects_) program_.set(EffectShaders::kActiveEffects, active);
 
   const glm::vec3 eye(view.eye_km);
   const float distance = glm::length(eye);
-  const float top = view.eye_km.w + air_top_km();
+  const float top = view.eye_km.w + kHighestAir;
   if (map_program_ && distance <= kOutside * top) {
     draw_cap(glm::vec4(0.0f));
   } else {

@@ -33,7 +33,7 @@ class Sky {
   void draw_cap(const glm::vec4& cap) const;
 
   glm::ivec2 texels_;  ///< of the map
-  bool has_parts_;     ///< of effects
+  bool has_effects_;
   gl::VertexArray array_;
   gl::Program program_;
   std::optional<gl::Program> map_program_;  ///< none where there is no air

@@ -39,7 +39,7 @@ ViewBlock view_block(const Camera& camera, const planet::Surface& surface, const
     const double cos_sun = glm::dot(glm::normalize(eye_km), sun);
     block.sun_at_eye = glm::vec4(sun_transmittance(static_cast<float>(height_km), static_cast<float>(cos_sun),
                                                    static_cast<float>(radius * 1e-3)),
-                                 is_twilight(height_km, cos_sun) ? 1.0f : 0.0f);
+                                 0.0f);
   }
   return block;
 }

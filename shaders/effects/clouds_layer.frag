@@ -5,11 +5,11 @@
 layout(location = 2) uniform int seen_from;  // 1: above, 0: below
 
 in Layer {
-  vec3 sunlight;
-  vec3 skylight;
-  vec3 haze;
-  vec3 left;
-  vec3 relative;
+  centroid vec3 sunlight;
+  centroid vec3 skylight;
+  centroid vec3 haze;
+  centroid vec3 left;
+  centroid vec3 relative;
 } layer;
 
 out vec4 color;

@@ -9,11 +9,11 @@ layout(location = 0) uniform vec3 ahead;   // level, toward the middle sector, i
 layout(location = 1) uniform vec4 cap;     // angle of the last ring from the vertical, growth of the rings' exponent, half the sectors' angle
 
 out Layer {
-  vec3 sunlight;  // on level cloud with the sun in the zenith, as much of it as reaches the eye
-  vec3 skylight;
-  vec3 haze;
-  vec3 left;
-  vec3 relative;  // metres from the eye
+  centroid vec3 sunlight;  // on level cloud with the sun in the zenith, as much of it as reaches the eye
+  centroid vec3 skylight;
+  centroid vec3 haze;
+  centroid vec3 left;
+  centroid vec3 relative;  // metres from the eye
 } layer;
 
 float ring_angle(float ring) { return cap.x * (exp(cap.y * ring / float(RINGS)) - 1.0) / (exp(cap.y) - 1.0); }

@@ -40,12 +40,8 @@ AirLight air_light(vec3 relative_m, float height_m) {
     float top = ground + kAirTop;
     float entry = radius > top ? max(-along - sqrt(max(along * along - radius * radius + top * top, 0.0)), 0.0) : 0.0;
     vec3 sun_here = sun_transmittance(max(height_km, 0.0), light.cos_sun, ground);
-    light.haze = haze(view.eye_km.xyz, light.direction, min(entry, away), away, sun, view.sun_at_eye.xyz, sun_here, light.cos_sun,
-                      ground, HAZE_STEPS, light.left);
-    // In twilight the sun's share is not linear along a ray: sampled there, and there only (a loop of no turns costs nothing).
-    int exact_steps = view.sun_at_eye.w > 0.0 ? 2 * HAZE_STEPS : 0;
-    vec4 exact = sky_light(view.eye_km.xyz, light.direction, min(entry, away), away, sun, ground, exact_steps);
-    light.haze = view.sun.w * (exact_steps > 0 ? with_mie(exact, dot(light.direction, sun)) : light.haze);
+    light.haze = view.sun.w * light_before(view.eye_km.xyz, light.direction, min(entry, away), away, sun, light.cos_sun, ground,
+                                           HAZE_STEPS, light.left);
     light.sunlight = view.sun.w * light.left * sun_here * 0.3183099;
     light.skylight = view.sun.w * light.left * sky_irradiance(max(height_km, 0.0), light.cos_sun) * 0.3183099;
   } else {

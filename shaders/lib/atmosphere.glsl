@@ -12,6 +12,7 @@ const float kMieHeight = 1.2f;
 const float kMieAsymmetry = 0.76f;
 const float kAirTop = 80.0f;
 const float kSkyHeight = 12.0f;  // height over which the light of the sky falls to 1/e
+const float kTwilight = 0.3f;    // cosine of the sun's zenith angle: lower, its share is sampled along rays
 
 // Column of air above a point in units of its density there times the scale height; x = radius / scale height.
 float chapman_upward(float x, float cos_zenith) {
@@ -63,17 +64,33 @@ float sample_distance(float x, float from, float lowest, float to) {
   return side < 0.0f ? lowest - (lowest - from) * side * side : lowest + (to - lowest) * side * side;
 }
 
-// The same light between the eye and a place on the ground, cheap enough for every vertex: the sun's share is taken at both ends
-// and carried linearly between them.
-vec3 haze(vec3 eye, vec3 direction, float from, float to, vec3 sun, vec3 sun_at_from, vec3 sun_at_to, float cos_sun, float ground,
+// Of a stretch of air, by the cosines of the sun's zenith angle at both ends: whether it is all in the planet's shadow, which is
+// convex; and whether the sun's share changes so much along it that each sample needs its own.
+bool is_night(float cos_sun_at_from, float cos_sun_at_to, float ground) {
+  return max(cos_sun_at_from, cos_sun_at_to) < -0.01f - sqrt(2.0f * kAirTop / ground);
+}
+
+bool is_twilight(float cos_sun_at_from, float cos_sun_at_to, float ground) {
+  return min(cos_sun_at_from, cos_sun_at_to) < kTwilight && !is_night(cos_sun_at_from, cos_sun_at_to, ground);
+}
+
+// The same light between the eye and a place on the ground, cheap enough for every vertex: the air that the sun's light has passed
+// is taken to be the density at a sample times a factor, had at both ends and carried linearly between them. Not in twilight.
+vec3 haze(vec3 eye, vec3 direction, float from, float to, vec3 sun, float cos_sun_at_from, float cos_sun_at_to, float ground,
           int steps, OUT(vec3) transmitted) {
   float cos_angle = dot(direction, sun);
+  float phase_r = rayleigh_phase(cos_angle);
   float phase_m = mie_phase(cos_angle);
-  vec3 again = sky_irradiance(0.0f, cos_sun) * 0.2f;
+  vec3 again = sky_irradiance(0.0f, cos_sun_at_to) * 0.2f;
   float lowest = clamp(-dot(eye, direction), from, to);
-  vec3 first = sun_at_from * rayleigh_phase(cos_angle);
-  vec3 change = (sun_at_to - sun_at_from) * rayleigh_phase(cos_angle);
-  float mie_share = phase_m / rayleigh_phase(cos_angle);
+  float day_at_from = max(cos_sun_at_from, 0.0f);
+  float day_at_to = max(cos_sun_at_to, 0.0f);
+  vec2 sunward = vec2(kRayleighHeight * chapman_upward(ground / kRayleighHeight, day_at_from),
+                      kMieHeight * chapman_upward(ground / kMieHeight, day_at_from));
+  vec2 change = vec2(kRayleighHeight * chapman_upward(ground / kRayleighHeight, day_at_to),
+                     kMieHeight * chapman_upward(ground / kMieHeight, day_at_to)) -
+                sunward;
+  float per_km = 1.0f / max(to - from, 1e-6f);
   vec3 light = vec3(0.0f);
   float column_r = 0.0f;
   float column_m = 0.0f;
@@ -84,19 +101,25 @@ vec3 haze(vec3 eye, vec3 direction, float from, float to, vec3 sun, vec3 sun_at_
     float middle = 0.5f * (previous + next);
     vec3 p = eye + direction * middle;
     float h = max(sqrt(dot(p, p)) - ground, 0.0f);
-    float density_r = exp(-h / kRayleighHeight) * length;
-    float density_m = exp(-h / kMieHeight) * length;
-    vec3 here = extinction(column_r + 0.5f * density_r, column_m + 0.5f * density_m);
-    vec3 lit = first + change * ((middle - from) / max(to - from, 1e-6f));
+    float at_r = exp(-h / kRayleighHeight);
+    float at_m = exp(-h / kMieHeight);
+    float density_r = at_r * length;
+    float density_m = at_m * length;
+    vec2 toward_sun = sunward + change * ((middle - from) * per_km);
+    float passed_r = column_r + 0.5f * density_r;
+    float passed_m = column_m + 0.5f * density_m;
+    vec3 here = extinction(passed_r, passed_m);
+    vec3 lit = extinction(passed_r + at_r * toward_sun.x, passed_m + at_m * toward_sun.y);
+    vec3 rayleigh = kRayleigh * density_r;
     float mie = kMieScattering * density_m;
     vec3 repeated = again * exp(-h / kSkyHeight);
-    light += here * (lit * (kRayleigh * density_r + vec3(mie * mie_share)) + repeated * (kRayleigh * density_r + vec3(mie)));
+    light += lit * (rayleigh * phase_r + vec3(mie * phase_m)) + here * repeated * (rayleigh + vec3(mie));
     column_r += density_r;
     column_m += density_m;
     previous = next;
   }
   transmitted = extinction(column_r, column_m);
-  return light;
+  return is_night(cos_sun_at_from, cos_sun_at_to, ground) ? vec3(0.0f) : light;
 }
 
 // Sky light along a ray (km), for sunlight of 1: Rayleigh and repeated scattering in rgb, Mie scattering without its phase, in
@@ -136,4 +159,15 @@ vec4 sky_light(vec3 eye, vec3 direction, float from, float to, vec3 sun, float g
 vec3 with_mie(vec4 light, float cos_angle) {
   float share = min(light.w / max(light.x, 1e-7f), 12.0f);  // where next to no light is left its colour says nothing
   return vec3(light) + vec3(light) * (kRayleigh.x / kRayleigh) * (share * mie_phase(cos_angle));
+}
+
+// Light of the air between the eye and a place: by haze(), in twilight by sky_light() with twice the samples.
+vec3 light_before(vec3 eye, vec3 direction, float from, float to, vec3 sun, float cos_sun_at_to, float ground, int steps,
+                  OUT(vec3) transmitted) {
+  vec3 first = eye + direction * from;
+  float cos_sun_at_from = dot(first, sun) / sqrt(dot(first, first));
+  vec3 light = haze(eye, direction, from, to, sun, cos_sun_at_from, cos_sun_at_to, ground, steps, transmitted);
+  int exact_steps = is_twilight(cos_sun_at_from, cos_sun_at_to, ground) ? 2 * steps : 0;  // a loop of no turns costs nothing
+  vec4 exact = sky_light(eye, direction, from, to, sun, ground, exact_steps);
+  return exact_steps > 0 ? with_mie(exact, dot(direction, sun)) : light;
 }

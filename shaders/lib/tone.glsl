@@ -5,12 +5,3 @@ vec3 tone_mapped(vec3 light) {
   vec3 r = sqrt(light);
   return r * (5.94631142f * r - 0.104074837f) / (vec3(1.0f) + r * (5.96147409f * r - 0.529102296f));
 }
-
-// What a pass writes: the screen's colour, or light where a later pass shows it (shaders/tone.frag).
-vec3 shown_light(vec3 light) {
-#ifdef KEEP_LIGHT
-  return light;
-#else
-  return tone_mapped(light);
-#endif
-}

@@ -7,5 +7,5 @@ layout(std140, binding = 0) uniform View {
   vec4 right;               // picture axes in world space, scaled to the view's half width
   vec4 up;                  // and half height at distance 1
   vec4 forward;
-  vec4 sun_at_eye;          // share of sunlight that reaches the eye; w: 1 in twilight
+  vec4 sun_at_eye;          // share of sunlight that reaches the eye
 } view;

@@ -36,18 +36,19 @@ inline std::string text_of(const std::filesystem::path& path) {
 }
 
 /// What a child does: becomes the program with these words, no shell between.
-[[noreturn]] inline void become_program(const std::vector<std::string>& words) {
-  std::vector<char*> argv{const_cast<char*>(GLOBE_PROGRAM)};
+[[noreturn]] inline void become_program(const std::vector<std::string>& words,
+                                        const char* program = GLOBE_PROGRAM) {
+  std::vector<char*> argv{const_cast<char*>(program)};
   for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
-  ::execv(GLOBE_PROGRAM, argv.data());
+  ::execv(program, argv.data());
   ::_exit(127);
 }
 
 /// Starts the program with its three streams in the files stdin, stdout and stderr of a folder; gives the
 /// process id.
 inline pid_t start(const std::vector<std::string>& words, const std::filesystem::path& folder,
-                   const std::string& input = "") {
+                   const std::string& input = "", const char* program = GLOBE_PROGRAM) {
   std::ofstream(folder / "stdin", std::ios::binary) << input;
   std::fflush(nullptr);
   const pid_t child = ::fork();
@@ -55,7 +56,7 @@ inline pid_t start(const std::vector<std::string>& words, const std::filesystem:
   ::dup2(::open((folder / "stdin").c_str(), O_RDONLY), STDIN_FILENO);
   ::dup2(::open((folder / "stdout").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
   ::dup2(::open((folder / "stderr").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-  become_program(words);
+  become_program(words, program);
 }
 
 /// The exit code of a child, or 128 + the signal that ended it.
@@ -66,9 +67,10 @@ inline int wait_for(pid_t child) {
 }
 
 /// Runs the program to its end.
-inline Outcome run_program(const std::vector<std::string>& words, const std::string& input = "") {
+inline Outcome run_program(const std::vector<std::string>& words, const std::string& input = "",
+                           const char* program = GLOBE_PROGRAM) {
   const tests::TemporaryFolder folder;
-  const int status = wait_for(start(words, folder.path(), input));
+  const int status = wait_for(start(words, folder.path(), input, program));
   return {text_of(folder / "stdout"), text_of(folder / "stderr"), status};
 }
 

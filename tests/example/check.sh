@@ -15,5 +15,7 @@ if readelf -d "$program" | grep -E 'NEEDED.*lib(epoxy|EGL|GL|OpenGL|glfw)'; then
   exit 1
 fi
 
-shown=$(sed -n '/^```cpp$/,/^```$/p' "$readme" | sed '1d;$d')
+# The block of the README that begins as the source does.
+shown=$(awk -v first="$(head -1 "$source")" '/^```/ { if (on) exit; fence = ($0 == "```cpp"); next }
+  fence { on = ($0 == first); fence = 0 } on' "$readme")
 diff <(cat "$source") <(echo "$shown") || { echo "README.md shows another example"; exit 1; }

@@ -127,10 +127,10 @@ std::vector<std::string> imprecisions(const std::string& shader) {
   for (const std::string& value : matches(shader, R"re(\bclip\s*=\s*([^;]+);)re")) {
     if (value != "view.clip_from_relative * vec4(position, 1.0)") wrong.push_back("clip is " + value);
   }
-  // Everything position is made of: texels, offsets from the camera, and the exact mix, none of it computed
-  // before.
+  // Everything position is made of: texels, offsets from the camera, the exact mix, none of it computed
+  // before; and the sea's place over a vertex, in programs of the sea.
   const std::regex allowed(
-      R"re((?:vec3|exact_mix|position|fine|target|alpha|slot|coarse|rim_vertex|offset|xyz|x|y|z|[\s.,()+])+)re");
+      R"re((?:vec3|exact_mix|sea_over|height|position|fine|target|alpha|slot|coarse|rim_vertex|offset|xyz|x|y|z|[\s.,()+])+)re");
   for (const std::string& value : matches(shader, R"re(\bposition\s*\+?=\s*([^;=][^;]*);)re")) {
     if (!std::regex_match(value, allowed)) wrong.push_back("position takes " + value);
   }

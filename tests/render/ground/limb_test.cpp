@@ -1,7 +1,10 @@
 // H25: the planet's limb stands where that of the ellipsoid does.
 
+#include <epoxy/gl.h>
+
 #include <array>
 
+#include "globe/geo/sun.h"
 #include "tests/hard/table.h"
 #include "tests/node_planet.h"
 #include "tests/render/ground/views.h"
@@ -97,6 +100,44 @@ TEST_F(GlTest, H25TheLimbOfPlanetsOfOtherShapesStandsWhereTheirEllipsoidsDoes) {
                  hard::figure(std::max(limb.worst, 0.0)) + " px");
     EXPECT_LE(limb.worst, kLimbError) << shape.name;
   }
+}
+
+// Where a pixel's middle lies outside the triangle that one of its samples is in, what is interpolated there
+// is not to be carried on beyond the triangle's edge: specks would stand on the limb.
+TEST_F(GlTest, FourSamplesAPixelLeaveNoSpecksOnTheLimb) {
+  const auto surface = views::builtin_planet();
+  views::RenderSettings settings;
+  settings.clipmap = globe::clipmap::Settings::for_detail(64);
+  views::GlobeRenderer renderer(surface, settings);
+  constexpr int kAcross = 640, kDown = 360, kFiner = 2;
+  const globe::gl::Framebuffer four(kAcross, kDown, {4, GL_RGBA8, GL_DEPTH_COMPONENT32F});
+  const globe::gl::Framebuffer fine(kFiner * kAcross, kFiner * kDown);
+  const Camera camera =
+      globe::render::make_camera(surface->ellipsoid(), {20.0, -100.0, 350e3}, 300.0, -22.0, 60.0, 16.0 / 9.0);
+  const dvec3 sun = globe::geo::morning_sun(-100.0);
+  renderer.draw(camera, sun, true, four);
+  const auto seen = four.read_rgba8();
+  renderer.draw(camera, sun, true, fine);
+  const auto truth = fine.read_rgba8();
+  // Each channel among all the values that the pixel and its neighbours have in the finer picture.
+  int worst = 0;
+  for (int y = 0; y < kDown; ++y) {
+    for (int x = 0; x < kAcross; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        int least = 255, most = 0;
+        for (int v = std::max(kFiner * (y - 1), 0); v < std::min(kFiner * (y + 2), kFiner * kDown); ++v) {
+          for (int u = std::max(kFiner * (x - 1), 0); u < std::min(kFiner * (x + 2), kFiner * kAcross); ++u) {
+            const int value = truth[static_cast<std::size_t>(4 * (v * kFiner * kAcross + u) + c)];
+            least = std::min(least, value);
+            most = std::max(most, value);
+          }
+        }
+        const int value = seen[static_cast<std::size_t>(4 * (y * kAcross + x) + c)];
+        worst = std::max({worst, least - value, value - most});
+      }
+    }
+  }
+  EXPECT_LE(worst, 35) << "of 255, beyond the colours around";
 }
 
 }  // namespace

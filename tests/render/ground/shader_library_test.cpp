@@ -21,7 +21,7 @@ using namespace glm;
 #undef OUT
 
 // Used by the shaders alone.
-[[maybe_unused]] const auto kUnused = std::make_tuple(&haze, &sky_light);
+[[maybe_unused]] const auto kUnused = std::make_tuple(&haze, &light_before, &sky_light);
 }  // namespace
 }  // namespace shader
 

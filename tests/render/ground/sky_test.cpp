@@ -62,6 +62,25 @@ TEST_F(GlTest, SkyFromSpaceIsARingOfAirWithoutAGap) {
   }
 }
 
+TEST_F(GlTest, NightSideFromSpaceIsDark) {
+  const auto surface = views::builtin_planet();
+  views::GlobeRenderer renderer(surface, sky_settings());
+  const globe::gl::Framebuffer picture(kSide, kSide);
+  for (const double height : {2.0e6, 2.0e7}) {
+    const Camera camera =
+        globe::render::make_camera(surface->ellipsoid(), {0.0, 180.0, height}, 0.0, -90.0, 20.0, 1.0);
+    const dvec3 sun(std::cos(0.6), 0.0, std::sin(0.6));  // 56 degrees below the horizon
+    renderer.draw(camera, sun, true, picture);
+    const auto rgba = picture.read_rgba8();
+    int brightest = 0;
+    for (int row = kSide / 4; row < 3 * kSide / 4; ++row) {
+      for (int column = kSide / 4; column < 3 * kSide / 4; ++column)
+        brightest = std::max(brightest, brightness(rgba, column, row));
+    }
+    EXPECT_LE(brightest, 1) << height;
+  }
+}
+
 TEST_F(GlTest, SunFromSpaceIsADiscInItsPlace) {
   const auto surface = views::builtin_planet();
   views::GlobeRenderer renderer(surface, sky_settings());

@@ -33,7 +33,7 @@ using globe::htm::dvec3;
 using Long = long double;
 
 constexpr Long kLongDegree = std::numbers::pi_v<Long> / 180.0L;
-constexpr Scope kQuick{};
+const Scope kQuick{};
 
 const Setting& setting(const std::vector<Study>& studies, const std::string& study, const std::string& name) {
   for (const Study& candidate : studies) {

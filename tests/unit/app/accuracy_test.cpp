@@ -4,6 +4,7 @@
 #include <set>
 
 #include "app/accuracy/measure.h"
+#include "app/accuracy/pace.h"
 #include "app/accuracy/report.h"
 
 namespace app::accuracy {
@@ -35,9 +36,10 @@ TEST(AccuracyReport, QuotesWhatWouldBreakACsvOrAPage) {
   Study study{"name", "a < b & c", "", "ref", "sample", "m", "ns", {}};
   study.settings.push_back({"with, \"quotes\"", {1.0, 0.5, "x"}, fixed(2.0), true});
   study.settings.push_back({"other", {2.0, 0.5, "x"}, fixed(1.0)});
-  const std::vector<MeasuredStudy> measured{measure(study, {})};
-  EXPECT_NE(csv_of(measured).find("\"with, \"\"quotes\"\"\",true"), std::string::npos);
-  const std::string page = html_of(provenance("globe accuracy", "quick"), measured);
+  const Report report{provenance("globe accuracy", "quick"), measure({pace_of_machine({})}, {}).front(),
+                      measure({study}, {})};
+  EXPECT_NE(csv_of(report).find("\"with, \"\"quotes\"\"\",true"), std::string::npos);
+  const std::string page = html_of(report);
   EXPECT_NE(page.find("a &lt; b &amp; c"), std::string::npos);
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_EQ(page.find("src="), std::string::npos) << "the page needs no other file";

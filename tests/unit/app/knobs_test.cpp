@@ -13,6 +13,7 @@
 
 #include "app/accuracy/study.h"
 #include "app/commands.h"
+#include "globe/gl/context.h"
 
 // What trades accuracy against time is in the report of `globe accuracy`: each option of the program, and
 // each approximation in the code that no option turns, which its header tags with "@approximation STUDY".
@@ -30,14 +31,14 @@ const Words kNoKnobs{"--help", "--version",
                      "--background", "--exaggeration", "--drawn", "--projection", "--axis", "--moment",
                      "--error", "--details", "--full", "--cone", "--polygon", "--box", "--edges",
                      "--complement", "--inner", "--near", "--radius", "find --count", "--name", "--where",
-                     "--columns", "--refraction", "--suite", "--only", "--hard", "--rounds", "--verify",
-                     "lookup --level", "height --level", "profile --level", "export --level",
+                     "--columns", "--refraction", "--suite", "--only", "--hard", "--compare", "--rounds",
+                     "--verify", "lookup --level", "height --level", "profile --level", "export --level",
                      // what the input means
                      "--color", "--latitude", "--voids", "--geoid", "--datum", "--credit", "--registration",
                      "--crs", "--nodata", "--scale", "--offset", "--units", "--rim",
                      // where it goes, and how it is written
                      "--output", "--overwrite", "--quiet", "--progress", "--json", "--csv", "--geojson",
-                     "--strict", "--precision", "--title", "--stats", "--contact-sheet",
+                     "--strict", "--precision", "--title", "--stats", "--trace", "--contact-sheet",
                      // what it may use: the same bytes with more or less
                      "--memory", "--threads", "--jobs", "--job", "--device", "--wait", "--budget"};
 
@@ -112,7 +113,9 @@ TEST(AccuracyKnobs, FamiliesDeclareWhatTheirStudiesAreAbout) {
     if (!quick && std::getenv("GLOBE_TEST_FULL") == nullptr) continue;
     const Words tags(family.approximations.begin(), family.approximations.end());
     Words knobs, found;
-    for (const app::accuracy::Study& study : family.studies({})) {
+    app::accuracy::Scope scope;
+    if (family.draws) scope.context = std::make_shared<globe::gl::Context>();
+    for (const app::accuracy::Study& study : family.studies(scope)) {
       std::istringstream list(study.knob);
       for (std::string knob; std::getline(list >> std::ws, knob, ',');) knobs.insert(knob);
       if (!study.knob.empty()) continue;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "globe/effects/list.h"
 #include "globe/scene/nearest_word.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/scene/expect_refusal.h"
@@ -216,7 +217,7 @@ TEST(Scene, TheExamplesAreScenes) {
        std::filesystem::directory_iterator(std::filesystem::path(GLOBE_SOURCE_DIR) / "scenes")) {
     if (entry.path().extension() != ".toml") continue;
     ++count;
-    EXPECT_NO_THROW(read_scene(entry.path(), {})) << entry.path();
+    EXPECT_NO_THROW(read_scene(entry.path(), effects::effect_kinds())) << entry.path();
   }
   EXPECT_GE(count, 4u);
 }
