@@ -96,8 +96,8 @@ enum class Stage {
 /// One thing that a scene can call for besides the ground and the plain air (DESIGN section 6).
 ///
 /// Named in no scene, it is never made. In a view that judge() finds it not active in, nothing of it runs: no
-/// uniform is set, no texture made, no pass drawn. All of its state follows from the view's Instant. Making one
-/// needs no OpenGL.
+/// uniform is set, no texture made, no pass drawn. All of its state follows from the view's Instant. Making
+/// one needs no OpenGL.
 class Effect {
  public:
   Effect() = default;

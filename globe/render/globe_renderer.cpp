@@ -166,8 +166,8 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
   draw_ground(list);
   if (sky_) sky_->draw(view, active_);
   if (!keep_light) return;
-  const EffectView light_view{host,     camera, view,     *surface_, list,                picture,
-                              instant_, sun_,   height_m, above_m_,  effect_view.water_m, active_};
+  const EffectView light_view{host, camera,   view,     *surface_,           list,   picture, instant_,
+                              sun_, height_m, above_m_, effect_view.water_m, active_};
   for (const Stage stage : {Stage::kHeavens, Stage::kSurface, Stage::kLayer, Stage::kLens}) {
     if (stage == Stage::kSurface || !settings_.background) draw_passes(light_view, stage);
   }

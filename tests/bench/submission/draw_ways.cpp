@@ -37,9 +37,9 @@ struct Ground {
     array.set_attribute(0, {0, 2, GL_UNSIGNED_BYTE, 0, globe::gl::Attribute::Kind::kInteger});
     array.set_indices(indices);
     for (std::size_t k = 0; k < kLooks.size(); ++k)
-      programs[k] = globe::render::ground_program(kLooks[k], scene.textures, false,
-                                                  globe::render::AirSteps{}.haze,
-                                                  globe::render::EffectShaders({}, reader));
+      programs[k] =
+          globe::render::ground_program(kLooks[k], scene.textures, false, globe::render::AirSteps{}.haze,
+                                        globe::render::EffectShaders({}, reader));
   }
 
   void add_instances(const Buffer& instances) {

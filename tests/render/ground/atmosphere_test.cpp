@@ -98,7 +98,7 @@ TEST_F(GlTest, SkyOfTheAtmosphereMeetsTheHorizonWithoutADarkOrWhiteLine) {
       const int above = green(row) - green(row - 1), below = green(row) - green(row + 1);
       if (depth[at(row + 1)] != 0.0f) break;
       EXPECT_FALSE(above * below > 0 && std::min(std::abs(above), std::abs(below)) > 3)
-            << height << " m, row " << row;
+          << height << " m, row " << row;
     }
   }
 }
