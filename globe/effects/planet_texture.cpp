@@ -15,7 +15,8 @@ gl::Texture planet_texture(LatLongImage& image, GLenum format) {
       rgba[4 * k + c] = image.pixels[k * channels + (channels == 1 ? 0 : c)];
   }
   image.pixels = {};
-  const int levels = std::bit_width(static_cast<unsigned>(std::min(image.width, image.height)));
+  const int levels =
+      static_cast<int>(std::bit_width(static_cast<unsigned>(std::min(image.width, image.height))));
   gl::Texture texture = gl::Texture::flat(format, image.width, image.height, levels);
   texture.upload({0, 0, image.width, image.height, 0, 0}, rgba.data());
   texture.generate_mipmaps();
