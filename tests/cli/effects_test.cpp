@@ -68,7 +68,8 @@ TEST_F(Effects, AProgramWithoutAnyDrawsTheSameBytesForScenesThatNameNone) {
 }
 
 TEST_F(Effects, LeavingOneOutOfTheListChangesNothingOfTheOthers) {
-  const std::string others = "[effects.contours]\n[effects.sea]\nwind_speed = 7\n[effects.fog]\n[effects.stars]\n";
+  const std::string others =
+      "[effects.contours]\n[effects.sea]\nwind_speed = 7\n[effects.fog]\n[effects.stars]\n";
   const std::string scene = write("others.toml", kCamera + others);
   EXPECT_EQ(shot(scene), shot(scene, GLOBE_WITHOUT_CLOUDS));
   const std::string cloudy = write("cloudy.toml", kCamera + others + "[effects.clouds]\n");
