@@ -114,7 +114,8 @@ TEST(AccuracyKnobs, FamiliesDeclareWhatTheirStudiesAreAbout) {
     const Words tags(family.approximations.begin(), family.approximations.end());
     Words knobs, found;
     app::accuracy::Scope scope;
-    if (family.draws) scope.context = std::make_shared<globe::gl::Context>();
+    if (family.draws)
+      scope = {false, std::make_shared<globe::gl::Context>(), globe::planet::Surface::builtin(1)};
     for (const app::accuracy::Study& study : family.studies(scope)) {
       std::istringstream list(study.knob);
       for (std::string knob; std::getline(list >> std::ws, knob, ',');) knobs.insert(knob);
