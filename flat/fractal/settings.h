@@ -42,12 +42,12 @@ struct Settings {
   Method method = Method::kSquareSquare;
   int iterations = 10;      ///< 1 to 24
   double roughness = 0.85;  ///< H, 0 (jagged) to 1 (smooth): deviations shrink by 2^-H an iteration
-  double relief_m = 900;    ///< deviation of the areas' corners, and of iteration 1 times 2^H; metres, >= 0
+  double relief_m = 2000;   ///< deviation of the areas' corners, and of iteration 1 times 2^H; metres, >= 0
   /// How much smoother valleys are than peaks, 0 (alike everywhere) to 1: deviations are multiplied by
   /// 1 - contrast two deviations below the base, by 1 + contrast two above, in proportion between.
   /// (Musgrave's heterogeneous terrain, "Texturing and Modeling", chapter 16)
-  double contrast = 0.8;
-  double area_m = 24000;  ///< side of an area, metres, > 0
+  double contrast = 0.9;
+  double area_m = 16000;  ///< side of an area, metres, > 0
   double base_m = 0;      ///< added to every height, metres
 
   /// Metres between neighbouring posts.

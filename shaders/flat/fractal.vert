@@ -18,8 +18,8 @@ out vec3 shown;
 
 invariant gl_Position;
 
-const vec3 kMeadow = vec3(0.105, 0.150, 0.050);
-const vec3 kHeath = vec3(0.170, 0.145, 0.085);
+const vec3 kMeadow = vec3(0.088, 0.112, 0.046);
+const vec3 kHeath = vec3(0.150, 0.132, 0.082);
 const vec3 kRock = vec3(0.200, 0.185, 0.170);
 const vec3 kSnow = vec3(0.780, 0.800, 0.840);
 
@@ -38,7 +38,7 @@ void main() {
   precise vec4 clip = clip_from_relative * vec4(position, 1.0);
   gl_Position = clip;
   vec3 normal = normalize(vec3(-ground.yz, 1.0));
-  vec3 light = vec3(2.9, 2.7, 2.4) * max(dot(normal, to_sun), 0.0) + vec3(0.22, 0.30, 0.42) * (0.5 + 0.5 * normal.z);
+  vec3 light = vec3(1.9, 1.75, 1.55) * max(dot(normal, to_sun), 0.0) + vec3(0.14, 0.20, 0.28) * (0.5 + 0.5 * normal.z);
   vec3 lit = tone_mapped(ground_color(ground.x, length(ground.yz)) * light);
   shown = mix(sky, lit, exp(-length(position) * per_sight));
 }
