@@ -36,6 +36,7 @@ Drawer::Drawer(Terrain& terrain, const Look& look)
   const auto blocks = static_cast<std::size_t>(pager.blocks()) * static_cast<std::size_t>(pager.blocks());
   const auto posts =
       static_cast<std::size_t>(pager.cells() + 1) * static_cast<std::size_t>(pager.cells() + 1);
+  uploaded_.resize(blocks);
   block_vertices_.resize(posts);
   command_list_.reserve(blocks);
   corner_list_.reserve(blocks);
@@ -72,14 +73,17 @@ Drawer::Stats Drawer::draw(const render::Camera& camera, const glm::dvec3& eye, 
                            const gl::Framebuffer& target) {
   Stats stats;
   const Pager& pager = terrain_.pager();
-  if (terrain_.move_to({eye.x, eye.y})) {
-    for (const int slot : pager.changed()) upload(slot);
-    stats.upload_bytes = pager.changed().size() * block_vertices_.size() * sizeof(Vertex);
-  }
+  terrain_.move_to({eye.x, eye.y});
   const glm::dmat4 clip = render::clip_from_relative(camera, near_m);
   command_list_.clear();
   corner_list_.clear();
   for (const BlockDraw& draw : terrain_.draws(clip, eye)) {
+    std::optional<BlockKey>& uploaded = uploaded_[static_cast<std::size_t>(draw.slot)];
+    if (uploaded != pager.block(draw.slot).key) {
+      upload(draw.slot);
+      uploaded = pager.block(draw.slot).key;
+      stats.upload_bytes += block_vertices_.size() * sizeof(Vertex);
+    }
     const Mesh& mesh = meshes_[static_cast<std::size_t>(draw.level)][draw.edges];
     command_list_.push_back({mesh.count, 1, mesh.first, draw.slot * static_cast<int>(block_vertices_.size()),
                              static_cast<unsigned>(command_list_.size())});

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "flat/fractal/terrain.h"
@@ -24,7 +25,7 @@ struct Look {
 };
 
 /// Draws a Terrain: all blocks in one indirect draw, the vertices of each in a place of its own that is
-/// written when the block is made. Colour and light are worked out at the vertices.
+/// written when the block is first in view. Colour and light are worked out at the vertices.
 ///
 /// A post's place is worked out from whole numbers of posts and its height, by the same operations whichever
 /// block it is drawn with, so that blocks meet bit for bit.
@@ -40,7 +41,7 @@ class Drawer {
     HeightTree::Counts culling;
   };
 
-  /// Pages for the eye, uploads what changed and draws over the whole target.
+  /// Pages for the eye, uploads what is new in view and draws over the whole target.
   /// @param camera  forward, right and up east, north, up; its position is not read
   /// @param eye     posts east and north, metres up
   /// @param near_m  metres to the near plane
@@ -69,6 +70,7 @@ class Drawer {
   gl::Buffer indices_, vertices_, corners_, commands_;
   gl::VertexArray array_;
   GLint clip_, eye_post_, eye_within_, eye_height_, spacing_, sun_, sky_, per_sight_, relief_;
+  std::vector<std::optional<BlockKey>> uploaded_;  ///< by slot
   std::vector<Vertex> block_vertices_;
   std::vector<Command> command_list_;
   std::vector<glm::ivec2> corner_list_;

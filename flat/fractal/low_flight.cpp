@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -10,19 +11,34 @@ namespace globe::flat::fractal {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kReach = 0.5;          // how far ahead ground counts, clearances
-constexpr int kSteps = 4;               // to a reach
-constexpr std::size_t kMost = 100'000;  // places looked at
+constexpr double kReach = 2.0;          // how far ahead and behind ground counts, clearances
+constexpr std::size_t kMost = 200'000;  // places looked at
 
-/// Of every `reach` values on either side, the largest, or their mean.
-template <class Fold>
-std::vector<double> folded(const std::vector<double>& values, int reach, const Fold& fold) {
+/// The largest of every `reach` values on either side.
+std::vector<double> highest_within(const std::vector<double>& values, std::size_t reach) {
   std::vector<double> result;
-  const auto count = static_cast<int>(values.size());
-  for (int k = 0; k < count; ++k) {
-    const auto first = values.begin() + std::max(0, k - reach);
-    const auto last = values.begin() + std::min(count, k + reach + 1);
-    result.push_back(fold(first, last));
+  std::deque<std::size_t> falling;  // places whose values are larger than all after them
+  for (std::size_t k = 0; k < values.size() + reach; ++k) {
+    if (k < values.size()) {
+      while (!falling.empty() && values[falling.back()] <= values[k]) falling.pop_back();
+      falling.push_back(k);
+    }
+    if (k < reach) continue;
+    while (falling.front() + 2 * reach < k) falling.pop_front();
+    result.push_back(values[falling.front()]);
+  }
+  return result;
+}
+
+/// Their mean.
+std::vector<double> mean_within(const std::vector<double>& values, std::size_t reach) {
+  std::vector<double> sums{0.0};
+  for (const double value : values) sums.push_back(sums.back() + value);
+  std::vector<double> result;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const std::size_t first = k < reach ? 0 : k - reach;
+    const std::size_t last = std::min(values.size(), k + reach + 1);
+    result.push_back((sums[last] - sums[first]) / static_cast<double>(last - first));
   }
   return result;
 }
@@ -34,26 +50,23 @@ LowFlight::LowFlight(const Ground& ground, const Course& course) : clearance_m_(
   const double heading = course.heading_deg * kDegree;
   from_posts_ = course.from_m / spacing;
   along_posts_ = glm::dvec2(std::sin(heading), std::cos(heading)) * (course.length_m / spacing);
-  const double step_m = std::max(course.clearance_m * kReach / kSteps, course.length_m / double(kMost));
+  const double step_m = std::max(spacing, course.length_m / double(kMost));
   const auto count = static_cast<std::size_t>(std::ceil(course.length_m / step_m)) + 2;
   Ground::Workspace workspace;
   std::vector<double> heights;
   for (std::size_t k = 0; k < count; ++k) {
     const glm::dvec2 place =
         glm::floor(from_posts_ + along_posts_ * (static_cast<double>(k) / static_cast<double>(count - 1)));
-    std::array<float, 4> around{};
+    std::array<float, 16> around{};  // the cells about the place and about all that is nearer than a step
     ground.heights(ground.settings().iterations,
-                   {static_cast<std::int64_t>(place.x), static_cast<std::int64_t>(place.y), 2, 2, 1}, around,
-                   workspace);
+                   {static_cast<std::int64_t>(place.x) - 1, static_cast<std::int64_t>(place.y) - 1, 4, 4, 1},
+                   around, workspace);
     heights.push_back(static_cast<double>(*std::max_element(around.begin(), around.end())));
   }
   // The mean of what is never below the ground within reach is never below it either.
-  const auto highest = folded(heights, 4 * kSteps, [](auto a, auto b) { return *std::max_element(a, b); });
-  floor_m_ = folded(highest, 4 * kSteps, [](auto a, auto b) {
-    double sum = 0;
-    for (auto at = a; at != b; ++at) sum += *at;
-    return sum / static_cast<double>(b - a);
-  });
+  const auto reach =
+      static_cast<std::size_t>(std::min(kReach * course.clearance_m / step_m, static_cast<double>(count)));
+  floor_m_ = mean_within(highest_within(heights, reach), reach);
 }
 
 glm::dvec3 LowFlight::at(double t) const {

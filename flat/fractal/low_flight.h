@@ -9,7 +9,8 @@
 
 namespace globe::flat::fractal {
 
-/// A flight in a straight line close over the ground, rising before mountains.
+/// A flight in a straight line close over the ground, rising before mountains. The ground is looked at post
+/// by post, in flights beyond 200,000 posts at so many places.
 class LowFlight {
  public:
   struct Course {

@@ -14,6 +14,11 @@ PagerSettings checked(const PagerSettings& settings) {
     throw UsageError("2^" + std::to_string(settings.log2_blocks) + " blocks a side",
                      "not between 2^2 and 2^8", "give 2 to 8");
   }
+  if (settings.log2_cells + settings.log2_blocks > 12) {
+    throw UsageError("2^" + std::to_string(settings.log2_blocks) + " blocks of 2^" +
+                         std::to_string(settings.log2_cells) + " cells a side",
+                     "more than 4096 cells a side", "give smaller blocks, or fewer");
+  }
   if (!(settings.slack >= 0.0 && settings.slack <= 1.0))
     throw UsageError("--slack " + std::to_string(settings.slack), "not a share of a block", "give 0 to 1");
   return settings;
@@ -35,7 +40,6 @@ Pager::Pager(const Settings& settings, const PagerSettings& pager)
   const auto posts = static_cast<std::size_t>(posts_with_rim());
   blocks_.resize(count);
   heights_.resize(count * posts * posts);
-  changed_.reserve(count);
 }
 
 int Pager::slot(const BlockKey& key) const {
@@ -50,7 +54,6 @@ std::span<const float> Pager::heights(int slot) const {
 }
 
 bool Pager::move_to(const glm::dvec2& posts) {
-  changed_.clear();
   const glm::dvec2 place = posts / static_cast<double>(cells());
   if (empty_) {
     middle_ = {std::llround(place.x), std::llround(place.y)};
@@ -87,7 +90,6 @@ void Pager::fill() {
           block.highest_m = std::max(block.highest_m, height);
         }
       }
-      changed_.push_back(at);
     }
   }
 }

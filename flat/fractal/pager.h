@@ -11,7 +11,7 @@ namespace globe::flat::fractal {
 
 struct PagerSettings {
   int log2_cells = 3;    ///< cells along a block's side, 2 to 6
-  int log2_blocks = 5;   ///< blocks along the side of what is there, 2 to 8
+  int log2_blocks = 5;   ///< blocks along the side of what is there, 2 to 8; with log2_cells at most 12
   double slack = 0.25;   ///< how much wider than a block the box is that one stays in, blocks, 0 to 1
   int cached_areas = 8;  ///< see BlockMaker
 };
@@ -44,13 +44,9 @@ class Pager {
   /// The south-western block.
   BlockKey first() const { return {middle_.x - blocks() / 2, middle_.y - blocks() / 2}; }
 
-  /// Goes to a place, in posts of the finest depth; true when blocks changed (`changed` names them). The same
-  /// double holds 1e7 blocks and a hundred-millionth of a post.
-  /// REQUIRES: coordinates within 2^52
+  /// Goes to a place, in posts of the finest depth; true when blocks changed. The same double holds 1e7
+  /// blocks and a hundred-millionth of a post. REQUIRES: coordinates within 2^52
   bool move_to(const glm::dvec2& posts);
-
-  /// Slots of the blocks that the last move made.
-  std::span<const int> changed() const { return changed_; }
 
   /// Where a block lies, 0 to blocks() squared - 1. REQUIRES: the block is in the square
   int slot(const BlockKey& key) const;
@@ -75,7 +71,6 @@ class Pager {
   std::uint64_t moves_ = 0;
   std::vector<Block> blocks_;
   std::vector<float> heights_;
-  std::vector<int> changed_;
 };
 
 /// How far a box must go, whole steps, to hold `place`: 0 while it lies within half a step and half the slack

@@ -40,7 +40,7 @@ class Terrain {
   const Pager& pager() const { return pager_; }
   double spacing_m() const { return settings_.ground.spacing_m(); }
 
-  /// Pages for a viewer at a place, in posts. True when blocks changed (pager().changed()).
+  /// Pages for a viewer at a place, in posts. True when blocks changed.
   bool move_to(const glm::dvec2& posts);
 
   /// Level of a block of the square.
