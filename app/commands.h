@@ -36,7 +36,5 @@ void add_profile(CLI::App& program);
 void add_shot(CLI::App& program);
 void add_summary(CLI::App& program);
 void add_tune(CLI::App& program);
-/// `flat endless`, under the command `flat`.
-void add_flat_endless(CLI::App& flat);
 
 }  // namespace app

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/commands.h"
+#include "app/flat_endless.h"
 #include "app/flight_stats.h"
 #include "app/fractal_options.h"
 #include "app/frame_sink.h"
