@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <memory>
 #include <vector>
 
@@ -59,26 +60,28 @@ struct Run {
     const globe::render::Camera camera =
         fractal::flat_camera(kHeading, kPitch, 60.0, double(kWidth) / kHeight);
     const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t cpu_begin = std::clock();
     const fractal::Drawer::Stats stats = drawer.draw(camera, flight.at(t), 1.0, target);
     glFinish();
+    cpu_ms.push_back(1e3 * static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC);
     ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
     triangles += static_cast<double>(stats.triangles);
     planes += static_cast<double>(stats.culling.planes);
     return stats;
   }
 
-  double mean_ms() const {
-    double sum = 0;
-    for (const double one : ms) sum += one;
-    return sum / static_cast<double>(ms.size());
-  }
-
   fractal::Terrain terrain;
   fractal::Drawer drawer;
   fractal::LowFlight flight;
-  std::vector<double> ms;
+  std::vector<double> ms, cpu_ms;
   double triangles = 0, planes = 0;
 };
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 }  // namespace
 
@@ -96,25 +99,41 @@ int main(int argc, char** argv) {
   for (const auto& run : runs) run->draw(0.0, target);
   for (const auto& run : runs) {
     run->ms.clear();
+    run->cpu_ms.clear();
     run->triangles = run->planes = 0;
   }
   for (int k = 0; k < frames; ++k) {
     for (const auto& run : runs) run->draw(double(k) / (frames - 1), target);
   }
-  std::printf("                        triangles a frame, mean          frames a second, mean\n");
-  std::printf("iterations  mode           ours     theirs   share        ours  theirs  gain ours  theirs\n");
+  std::printf(
+      "                       triangles a frame, mean     frames a second, median   processor ms, all "
+      "threads\n");
+  std::printf(
+      "iterations  mode          ours    theirs   share        ours  theirs    gain    ours    gain  their "
+      "gain\n");
   const char* const names[] = {"neither", "levels", "culling", "both"};
   for (std::size_t row = 0; row < 4; ++row) {
     const Run& plain = *runs[4 * row];
     for (std::size_t mode = 0; mode < 4; ++mode) {
       const Run& run = *runs[4 * row + mode];
       const Theirs& theirs = kTheirs[row];
-      const double their_triangles = mode == 0 ? theirs.plain : mode == 3 ? theirs.lod_and_culling : 0;
-      const double their_fps = mode == 0 ? theirs.plain_fps : mode == 3 ? theirs.lod_and_culling_fps : 0;
-      std::printf("%10zu  %-8s %10.0f %10.0f  %5.1f %%  %10.1f %7.1f %8.2f %8.2f\n", row + 7, names[mode],
-                  run.triangles / frames, their_triangles, 100.0 * run.triangles / plain.triangles,
-                  1000.0 / run.mean_ms(), their_fps, plain.mean_ms() / run.mean_ms(),
-                  mode == 3 && theirs.plain_fps > 0 ? their_fps / theirs.plain_fps : 0.0);
+      const double ms = median(run.ms), cpu_ms = median(run.cpu_ms);
+      std::printf("%10zu  %-8s %9.0f ", row + 7, names[mode], run.triangles / frames);
+      if (mode == 0 || mode == 3) {
+        std::printf("%9.0f", mode == 0 ? theirs.plain : theirs.lod_and_culling);
+      } else {
+        std::printf("%9s", "");
+      }
+      std::printf("  %5.1f %%  %10.1f ", 100.0 * run.triangles / plain.triangles, 1000.0 / ms);
+      if (mode == 0 ? theirs.plain_fps > 0 : mode == 3) {
+        std::printf("%7.1f", mode == 0 ? theirs.plain_fps : theirs.lod_and_culling_fps);
+      } else {
+        std::printf("%7s", "");
+      }
+      std::printf(" %7.2f %7.1f %7.2f", median(plain.ms) / ms, cpu_ms, median(plain.cpu_ms) / cpu_ms);
+      if (mode == 3 && theirs.plain_fps > 0)
+        std::printf(" %11.2f", theirs.lod_and_culling_fps / theirs.plain_fps);
+      std::printf("\n");
     }
   }
   std::printf("\niterations  plane tests a frame  pagings  blocks made  area cache hits  misses\n");
