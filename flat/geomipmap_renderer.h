@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <memory>
@@ -10,8 +11,10 @@
 
 #include "flat/levels.h"
 #include "flat/lightmap.h"
+#include "flat/materials.h"
 #include "flat/patch_mesh.h"
 #include "flat/terrain.h"
+#include "flat/visibility.h"
 #include "globe/gl/buffer.h"
 #include "globe/gl/program.h"
 #include "globe/gl/texture.h"
@@ -30,6 +33,10 @@ struct GeomipmapSettings {
   bool lod = true;      ///< false: level 0 everywhere
   bool culling = true;  ///< false: patches out of view are drawn too
   bool shadows = true;
+  std::vector<Material> materials;  ///< a pass each; none: the colours alone
+  double cloud_cover = 0;     ///< share of the sky whose clouds throw shadows, [0, 1]; 0: none, and no cost
+  glm::dvec2 wind{8.0, 3.0};  ///< of the clouds, metres a second east and north
+  std::shared_ptr<const Visibility> visibility;  ///< patches it hides are not drawn
   render::Show show = render::Show::kGround;
   bool wireframe = false;
   std::optional<glm::vec3> background;  ///< sRGB in [0, 1]; no sky then
@@ -62,6 +69,8 @@ class GeomipmapRenderer : public render::SurfaceRenderer {
   const std::vector<float>& levels() const { return levels_; }
   /// The patches drawn last.
   const std::vector<std::size_t>& drawn() const { return visible_; }
+  /// This program's memory of a patch that is not in view, bytes.
+  std::size_t inactive_patch_bytes() const;
 
  private:
   /// Buffers of a patch in view.
@@ -78,10 +87,21 @@ class GeomipmapRenderer : public render::SurfaceRenderer {
     float share = 0;
   };
 
+  /// A pass over the ground: the first is opaque, later ones are blended over it.
+  struct Pass {
+    gl::Program program;
+    gl::Texture tile, mask;
+    glm::vec4 u_row{0.0f}, v_row{0.0f};
+    std::vector<bool> in_patch;
+  };
+
+  void make_passes();
+  void set_uniforms(const gl::Program& program, const render::Camera& camera) const;
   void find_visible(const render::Camera& camera, const dvec3& eye);
   void make_ready(std::size_t patch, const PatchState& state);
   void upload_heights();
-  void draw_patches(const glm::vec4& overlay);
+  void draw_passes(const glm::vec4& overlay);
+  void draw_patches(const Pass& pass);
   void let_go();
 
   std::shared_ptr<const Terrain> terrain_;
@@ -91,8 +111,8 @@ class GeomipmapRenderer : public render::SurfaceRenderer {
   std::array<std::size_t, kLevels> first_post_{};
   gl::Buffer posts_, indices_, instances_, heights_, view_;
   gl::VertexArray array_;
-  gl::Program program_;
-  gl::Texture lightmap_;
+  std::vector<Pass> passes_;
+  gl::Texture lightmap_, clouds_;
   std::optional<render::Sky> sky_;
   render::Instant instant_;
   std::optional<dvec3> lit_by_;  ///< sun of the lightmap, ECEF

@@ -13,26 +13,24 @@
 namespace globe::flat {
 namespace {
 
-/// Normal under a post whose normal at height 0 is `foot`: on its way up the vertical of the frame leads
-/// toward the origin's.
-dvec3 normal_above(const TangentFrame& frame, const dvec3& foot, double h_m) {
-  const dvec3& up = frame.axes()[2];
-  return glm::normalize(up + (foot - up) / (1.0 + h_m / frame.ellipsoid().mean_radius()));
-}
+constexpr double kReference = 5000.0;  ///< metres: between it and 0 normals over a place are interpolated
 
 void sample_row(const TangentFrame& frame, double spacing_m, const PostRect& rect, int row,
                 const GroundHeights& ground, double close_m, std::span<float> heights) {
   const auto columns = static_cast<std::size_t>(rect.columns);
-  std::vector<dvec3> feet(columns), normals(columns);
+  std::vector<dvec3> feet(columns), turns(columns), normals(columns);
   std::vector<float> before(columns);
   const double y = static_cast<double>(rect.j0 + row) * spacing_m;
-  for (std::size_t c = 0; c < columns; ++c)
-    feet[c] = frame.normal_at(static_cast<double>(rect.i0 + static_cast<std::int64_t>(c)) * spacing_m, y, 0.0);
+  for (std::size_t c = 0; c < columns; ++c) {
+    const double x = static_cast<double>(rect.i0 + static_cast<std::int64_t>(c)) * spacing_m;
+    feet[c] = frame.normal_at(x, y, 0.0);
+    turns[c] = (frame.normal_at(x, y, kReference) - feet[c]) / kReference;
+  }
   ground(feet, heights);
   for (int pass = 1; pass < 5; ++pass) {
     std::copy(heights.begin(), heights.end(), before.begin());
     for (std::size_t c = 0; c < columns; ++c)
-      normals[c] = normal_above(frame, feet[c], static_cast<double>(heights[c]));
+      normals[c] = glm::normalize(feet[c] + turns[c] * static_cast<double>(heights[c]));
     ground(normals, heights);
     double moved = 0.0;
     for (std::size_t c = 0; c < columns; ++c)
@@ -45,7 +43,8 @@ void sample_row(const TangentFrame& frame, double spacing_m, const PostRect& rec
 
 HeightGrid::HeightGrid(double spacing_m, const PostRect& extent, std::vector<float> heights_m)
     : spacing_m_(spacing_m), extent_(extent), heights_m_(std::move(heights_m)) {
-  assert(heights_m_.size() == static_cast<std::size_t>(extent.columns) * static_cast<std::size_t>(extent.rows));
+  assert(heights_m_.size() ==
+         static_cast<std::size_t>(extent.columns) * static_cast<std::size_t>(extent.rows));
 }
 
 void HeightGrid::posts(const PostRect& rect, std::span<float> heights_m) const {

@@ -32,9 +32,9 @@ using GroundHeights = std::function<void(std::span<const dvec3> normals, std::sp
 
 /// The ground at the posts of a rectangle (stride 1), on all threads.
 ///
-/// A post's vertical is that of the frame, tilted from the ground's own by up to a degree: what stands over it
-/// is found by going back and forth between place and height until the height moves by less than `close_m`,
-/// five times at most. `progress` hears of the share done.
+/// A post's vertical is that of the frame, tilted from the ground's own by up to a degree: what stands over
+/// it is found by going back and forth between place and height until the height moves by less than
+/// `close_m`, five times at most. `progress` hears of the share done.
 HeightGrid sample_ground(const TangentFrame& frame, double spacing_m, const PostRect& rect,
                          const GroundHeights& ground, double close_m = 0.005,
                          const std::function<void(double)>& progress = {});

@@ -17,8 +17,8 @@ struct PostRect {
   friend bool operator==(const PostRect&, const PostRect&) = default;
 };
 
-/// Heights on a regular grid in the plane of a tangent frame (tangent_frame.h): post (i, j) lies i spacings east
-/// and j spacings north of the frame's origin, either of which may be negative.
+/// Heights on a regular grid in the plane of a tangent frame (tangent_frame.h): post (i, j) lies i spacings
+/// east and j spacings north of the frame's origin, either of which may be negative.
 ///
 /// A height is a function of the post alone, the same whichever rectangle it is asked in, in any order and
 /// from any thread.

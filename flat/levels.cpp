@@ -15,8 +15,7 @@ float level_for(const std::array<float, kLevels>& errors_m, double allowed_m) {
     if (coarse <= allowed_m) continue;
     const double share = std::max(allowed_m - fine, 0.0) / (coarse - fine);
     const double steps = std::floor(share / static_cast<double>(kLevelStep));
-    return static_cast<float>(level) +
-           std::min(static_cast<float>(steps) * kLevelStep, 1.0f - kLevelStep);
+    return static_cast<float>(level) + std::min(static_cast<float>(steps) * kLevelStep, 1.0f - kLevelStep);
   }
   return static_cast<float>(kLevels - 1);
 }
@@ -73,11 +72,10 @@ PatchState patch_state(const std::vector<float>& levels, int patches_east, int p
   const int i = static_cast<int>(patch % east);
   const int j = static_cast<int>(patch / east);
   const float own = levels[patch];
-  const std::array<float, kSides> sides{
-      i > 0 ? std::max(own, levels[patch - 1]) : own,
-      i + 1 < patches_east ? std::max(own, levels[patch + 1]) : own,
-      j > 0 ? std::max(own, levels[patch - east]) : own,
-      j + 1 < patches_north ? std::max(own, levels[patch + east]) : own};
+  const std::array<float, kSides> sides{i > 0 ? std::max(own, levels[patch - 1]) : own,
+                                        i + 1 < patches_east ? std::max(own, levels[patch + 1]) : own,
+                                        j > 0 ? std::max(own, levels[patch - east]) : own,
+                                        j + 1 < patches_north ? std::max(own, levels[patch + east]) : own};
   PatchState state;
   state.level = static_cast<int>(own);
   state.morph = own - static_cast<float>(state.level);

@@ -66,7 +66,8 @@ glm::vec3 post_normal(const Terrain& terrain, int column, int row) {
 
 std::vector<glm::vec3> post_colors(const Terrain& terrain, const GroundKnowledge& knowledge) {
   const PostRect& posts = terrain.posts();
-  std::vector<glm::vec3> colors(static_cast<std::size_t>(posts.columns) * static_cast<std::size_t>(posts.rows));
+  std::vector<glm::vec3> colors(static_cast<std::size_t>(posts.columns) *
+                                static_cast<std::size_t>(posts.rows));
   for_each_post(terrain, [&](int column, int row, std::size_t k) {
     const glm::vec3 n = post_normal(terrain, column, row);
     const dvec3 normal = terrain.frame().normal_at(terrain.x_m(column), terrain.y_m(row),
@@ -96,8 +97,8 @@ float sun_seen(const Terrain& terrain, int column, int row, const dvec3& sun) {
   const double dx = sun.x / level;
   const double dy = sun.y / level;
   const double rise = sun.z / level * terrain.spacing_m();
-  const double half_disc = kSunRadius * (1.0 + rise * rise / (terrain.spacing_m() * terrain.spacing_m())) *
-                           terrain.spacing_m();
+  const double half_disc =
+      kSunRadius * (1.0 + rise * rise / (terrain.spacing_m() * terrain.spacing_m())) * terrain.spacing_m();
   const auto z0 = static_cast<double>(terrain.z(column, row));
   const double last_column = terrain.posts().columns - 1.0;
   const double last_row = terrain.posts().rows - 1.0;
@@ -106,11 +107,10 @@ float sun_seen(const Terrain& terrain, int column, int row, const dvec3& sun) {
     const double x = column + dx * way;
     const double y = row + dy * way;
     if (x < 0.0 || y < 0.0 || x > last_column || y > last_row) break;
-    const auto patch = static_cast<std::size_t>(std::min(static_cast<int>(y) / kPatchCells,
-                                                         terrain.patches_north() - 1)) *
-                           static_cast<std::size_t>(terrain.patches_east()) +
-                       static_cast<std::size_t>(
-                           std::min(static_cast<int>(x) / kPatchCells, terrain.patches_east() - 1));
+    const auto patch =
+        static_cast<std::size_t>(std::min(static_cast<int>(y) / kPatchCells, terrain.patches_north() - 1)) *
+            static_cast<std::size_t>(terrain.patches_east()) +
+        static_cast<std::size_t>(std::min(static_cast<int>(x) / kPatchCells, terrain.patches_east() - 1));
     const double above = static_cast<double>(terrain.patch(patch).highest_m) - z0;
     if (above < (rise - half_disc) * way) {  // the patch can hide nothing of the disc
       way += std::max(std::min(steps_to_next_patch(x, dx), steps_to_next_patch(y, dy)), 1.0);

@@ -26,10 +26,14 @@ struct Posts {
 /// Along a side: the post `along` it, from the south or the west.
 float side_z(const Posts& posts, std::size_t side, int along) {
   switch (side) {
-    case kWest: return posts.z(0, along);
-    case kEast: return posts.z(posts.n, along);
-    case kSouth: return posts.z(along, 0);
-    default: return posts.z(along, posts.n);
+    case kWest:
+      return posts.z(0, along);
+    case kEast:
+      return posts.z(posts.n, along);
+    case kSouth:
+      return posts.z(along, 0);
+    default:
+      return posts.z(along, posts.n);
   }
 }
 
@@ -44,15 +48,14 @@ float side_move(const Posts& posts, std::size_t side, bool coarser, int along) {
 void set_inner(const Posts& posts, const PatchState& state, int i, int j, PatchVertex& vertex) {
   if (i % 2 == 1 && j % 2 == 1) {
     const bool north_east = splits_north_east(i / 2, j / 2);
-    vertex.self = (north_east ? posts.mean(i - 1, j - 1, i + 1, j + 1)
-                              : posts.mean(i - 1, j + 1, i + 1, j - 1)) -
-                  vertex.z;  // the ends of a coarse diagonal rest: on a side they are even in the next level too
+    vertex.self =
+        (north_east ? posts.mean(i - 1, j - 1, i + 1, j + 1) : posts.mean(i - 1, j + 1, i + 1, j - 1)) -
+        vertex.z;  // the ends of a coarse diagonal rest: on a side they are even in the next level too
     return;
   }
   if (i % 2 == 0 && j % 2 == 0) return;
   const bool across = i % 2 == 1;
-  vertex.self =
-      (across ? posts.mean(i - 1, j, i + 1, j) : posts.mean(i, j - 1, i, j + 1)) - vertex.z;
+  vertex.self = (across ? posts.mean(i - 1, j, i + 1, j) : posts.mean(i, j - 1, i, j + 1)) - vertex.z;
   // An end on a side that is coarser by a level moves with that side, and half of it comes along: height is
   // bilinear in the two shares, which side and self alone cannot give.
   const auto follow = [&](std::size_t side, bool beside, int along) {

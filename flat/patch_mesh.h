@@ -9,8 +9,8 @@
 
 namespace globe::flat {
 
-/// A vertex of a patch: its post and the nine moves of geomorphing (Wagner), each metres along z, all constant
-/// until the patch takes another shape. With f the patch's share, s those of its sides:
+/// A vertex of a patch: its post and the nine moves of geomorphing (Wagner), each metres along z, all
+/// constant until the patch takes another shape. With f the patch's share, s those of its sides:
 ///     z + f self + sum over sides (s side + (1 - s) f both)
 /// The last serve vertices beside a side whose own moves end on one that moves. (shaders/lib/geomorph.glsl)
 struct PatchVertex {

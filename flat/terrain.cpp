@@ -36,8 +36,7 @@ PatchSummary summary_of(const Terrain& terrain, int patch_column, int patch_row)
       summary.lowest_m = std::min(summary.lowest_m, z);
       summary.highest_m = std::max(summary.highest_m, z);
       for (std::size_t level = 1; level < kLevels; ++level) {
-        const double mesh =
-            mesh_z(terrain, first_column, first_row, static_cast<int>(level), column, row);
+        const double mesh = mesh_z(terrain, first_column, first_row, static_cast<int>(level), column, row);
         summary.errors_m[level] =
             std::max(summary.errors_m[level], static_cast<float>(std::abs(mesh - static_cast<double>(z))));
       }
@@ -68,8 +67,7 @@ Terrain::Terrain(const TangentFrame& frame, const HeightSource& source, const Po
   source.posts(posts, heights_);
   tbb::parallel_for(0, posts.rows, [&](int row) {
     for (int column = 0; column < posts_.columns; ++column) {
-      const double z =
-          frame_.z_at(x_m(column), y_m(row), static_cast<double>(heights_[index(column, row)]));
+      const double z = frame_.z_at(x_m(column), y_m(row), static_cast<double>(heights_[index(column, row)]));
       z_[index(column, row)] = static_cast<float>(std::round(z * kStepsAMetre) / kStepsAMetre);
     }
   });
