@@ -12,6 +12,7 @@
 
 #include "globe/clipmap/ground_below.h"
 #include "globe/render/ground_program.h"
+#include "globe/render/ground_state.h"
 #include "globe/render/tone.h"
 #include "globe/render/view_block.h"
 
@@ -87,13 +88,6 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
   }
 }
 
-FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool wait,
-                               const gl::Framebuffer& target, double upload_ms) {
-  begin_frame(camera.position, sun, wait, upload_ms);
-  draw_view(camera, target);
-  return stats_;
-}
-
 void GlobeRenderer::begin_frame(const glm::dvec3& position, const glm::dvec3& sun, bool wait,
                                 double upload_ms) {
   stats_ = {};
@@ -156,23 +150,8 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
   const gl::Framebuffer& picture = keep_light ? light_->in_place_of(target) : target;
   if (sky_) sky_->prepare();
 
-  picture.bind();
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_TRUE);
-  glDepthFunc(GL_GREATER);
-  if (settings_.cull_faces) {
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_BACK);
-    glFrontFace(GL_CCW);
-  } else {
-    glDisable(GL_CULL_FACE);
-  }
   const glm::vec3 shown = settings_.background.value_or(glm::vec3(0.0f));
-  const glm::vec3 background = keep_light ? light_shown_as(shown) : shown;
-  picture.clear_color(background.r, background.g, background.b, 1.0f);
-  picture.clear_depth(0.0f);
-
+  begin_ground(picture, settings_.cull_faces, keep_light ? light_shown_as(shown) : shown);
   draw_ground(list);
   if (sky_) sky_->draw(view, active_, serving_);
   if (!keep_light) return;
@@ -229,17 +208,7 @@ std::vector<EffectState> GlobeRenderer::effect_states() const {
 void GlobeRenderer::draw_ground(const DrawList& list) {
   patches_.upload(list);
   stats_.triangles += patches_.triangles(list);
-  if (settings_.wireframe) {
-    draw_batches(list, glm::vec4(0.0f, 0.0f, 0.0f, 0.35f));
-    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    glEnable(GL_POLYGON_OFFSET_LINE);
-    glPolygonOffset(1.0f, 1.0f);
-    draw_batches(list, glm::vec4(1.0f, 1.0f, 1.0f, 0.75f));
-    glDisable(GL_POLYGON_OFFSET_LINE);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  } else {
-    draw_batches(list, glm::vec4(0.0f));
-  }
+  draw_wired(settings_.wireframe, [&](const glm::vec4& overlay) { draw_batches(list, overlay); });
 }
 
 void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay) {

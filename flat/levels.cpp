@@ -1,0 +1,90 @@
+#include "flat/levels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace globe::flat {
+
+float level_for(const std::array<float, kLevels>& errors_m, double allowed_m) {
+  for (std::size_t level = 0; level + 1 < kLevels; ++level) {
+    const auto fine = static_cast<double>(errors_m[level]);
+    const auto coarse = static_cast<double>(errors_m[level + 1]);
+    if (coarse <= allowed_m) continue;
+    const double share = std::max(allowed_m - fine, 0.0) / (coarse - fine);
+    const double steps = std::floor(share / static_cast<double>(kLevelStep));
+    return static_cast<float>(level) + std::min(static_cast<float>(steps) * kLevelStep, 1.0f - kLevelStep);
+  }
+  return static_cast<float>(kLevels - 1);
+}
+
+ErrorBound error_bound(double pixels, double fov_y_deg, double aspect, int picture_height) {
+  const double tan_y = std::tan(fov_y_deg * std::numbers::pi / 360.0);
+  // A small step across a ray at an angle a from the axis is stretched by 1 / cos(a) twice: the picture's
+  // plane is that much farther off than where the ray ends, and it is tilted.
+  const double stretch = 1.0 + tan_y * tan_y * (1.0 + aspect * aspect);
+  return {pixels, 0.5 * picture_height / tan_y * stretch};
+}
+
+void limit_steps(std::vector<float>& levels, int patches_east, int patches_north) {
+  const auto at = [&](int i, int j) -> float& {
+    return levels[static_cast<std::size_t>(j) * static_cast<std::size_t>(patches_east) +
+                  static_cast<std::size_t>(i)];
+  };
+  for (int j = 0; j < patches_north; ++j) {
+    for (int i = 0; i < patches_east; ++i) {
+      if (i > 0) at(i, j) = std::min(at(i, j), at(i - 1, j) + 1.0f);
+      if (j > 0) at(i, j) = std::min(at(i, j), at(i, j - 1) + 1.0f);
+    }
+  }
+  for (int j = patches_north - 1; j >= 0; --j) {
+    for (int i = patches_east - 1; i >= 0; --i) {
+      if (i + 1 < patches_east) at(i, j) = std::min(at(i, j), at(i + 1, j) + 1.0f);
+      if (j + 1 < patches_north) at(i, j) = std::min(at(i, j), at(i, j + 1) + 1.0f);
+    }
+  }
+}
+
+std::vector<float> patch_levels(const Terrain& terrain, const dvec3& eye, const ErrorBound& bound,
+                                Morph morph) {
+  std::vector<float> levels(terrain.patch_count());
+  const auto east = static_cast<std::size_t>(terrain.patches_east());
+  const double side = kPatchCells * terrain.spacing_m();
+  const double allowed_at_1m = bound.pixels / bound.pixels_at_1m;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const PatchSummary& patch = terrain.patch(k);
+    const dvec3 low(terrain.x_m(static_cast<int>(k % east) * kPatchCells),
+                    terrain.y_m(static_cast<int>(k / east) * kPatchCells), patch.lowest_m);
+    const dvec3 high(low.x + side, low.y + side, patch.highest_m);
+    const double nearest = glm::distance(eye, glm::clamp(eye, low, high));
+    levels[k] = level_for(patch.errors_m, nearest * allowed_at_1m);
+    if (morph == Morph::kOff) levels[k] = std::floor(levels[k]);
+  }
+  limit_steps(levels, terrain.patches_east(), terrain.patches_north());
+  return levels;
+}
+
+PatchState patch_state(const std::vector<float>& levels, int patches_east, int patches_north,
+                       std::size_t patch) {
+  const auto east = static_cast<std::size_t>(patches_east);
+  const int i = static_cast<int>(patch % east);
+  const int j = static_cast<int>(patch / east);
+  const float own = levels[patch];
+  const std::array<float, kSides> sides{i > 0 ? std::max(own, levels[patch - 1]) : own,
+                                        i + 1 < patches_east ? std::max(own, levels[patch + 1]) : own,
+                                        j > 0 ? std::max(own, levels[patch - east]) : own,
+                                        j + 1 < patches_north ? std::max(own, levels[patch + east]) : own};
+  PatchState state;
+  state.level = static_cast<int>(own);
+  state.morph = own - static_cast<float>(state.level);
+  for (std::size_t side = 0; side < kSides; ++side) {
+    const int level = static_cast<int>(sides[side]);
+    state.coarser[side] = level > state.level;
+    state.side_morph[side] = sides[side] - static_cast<float>(level);
+  }
+  return state;
+}
+
+}  // namespace globe::flat
