@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "flat/box.h"
+
 namespace globe::flat {
 
 float level_for(const std::array<float, kLevels>& errors_m, double allowed_m) {
@@ -47,19 +49,21 @@ void limit_steps(std::vector<float>& levels, int patches_east, int patches_north
   }
 }
 
+double pixels_a_metre(const Terrain& terrain, std::size_t patch, const dvec3& eye, const ErrorBound& bound) {
+  const Box box = patch_box(terrain, patch);
+  const dvec3 nearest = glm::clamp(eye, box.low, box.high);
+  // Of all lines of sight into the box the farthest from the vertical.
+  const double level = std::hypot(std::max(std::abs(eye.x - box.low.x), std::abs(eye.x - box.high.x)),
+                                  std::max(std::abs(eye.y - box.low.y), std::abs(eye.y - box.high.y)));
+  const double across = level / std::hypot(level, eye.z - nearest.z);
+  return bound.pixels_at_1m * across / std::max(glm::distance(eye, nearest), 1e-6);
+}
+
 std::vector<float> patch_levels(const Terrain& terrain, const dvec3& eye, const ErrorBound& bound,
                                 Morph morph) {
   std::vector<float> levels(terrain.patch_count());
-  const auto east = static_cast<std::size_t>(terrain.patches_east());
-  const double side = kPatchCells * terrain.spacing_m();
-  const double allowed_at_1m = bound.pixels / bound.pixels_at_1m;
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    const PatchSummary& patch = terrain.patch(k);
-    const dvec3 low(terrain.x_m(static_cast<int>(k % east) * kPatchCells),
-                    terrain.y_m(static_cast<int>(k / east) * kPatchCells), patch.lowest_m);
-    const dvec3 high(low.x + side, low.y + side, patch.highest_m);
-    const double nearest = glm::distance(eye, glm::clamp(eye, low, high));
-    levels[k] = level_for(patch.errors_m, nearest * allowed_at_1m);
+    levels[k] = level_for(terrain.patch(k).errors_m, bound.pixels / pixels_a_metre(terrain, k, eye, bound));
     if (morph == Morph::kOff) levels[k] = std::floor(levels[k]);
   }
   limit_steps(levels, terrain.patches_east(), terrain.patches_north());

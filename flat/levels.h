@@ -33,8 +33,13 @@ struct ErrorBound {
 /// @param fov_y_deg, aspect  of a pinhole camera
 ErrorBound error_bound(double pixels, double fov_y_deg, double aspect, int picture_height);
 
-/// Level of every patch as seen from a place of the frame: the coarsest under the bound at the patch's
-/// nearest point, but at most one above each of its four neighbours.
+/// Pixels that a metre along z anywhere in a patch covers on the screen at the most, seen from a place of the
+/// frame: at the patch's nearest point, from above only as much of it as stands across the line of sight.
+/// @approximation flat.error
+double pixels_a_metre(const Terrain& terrain, std::size_t patch, const dvec3& eye, const ErrorBound& bound);
+
+/// Level of every patch as seen from a place of the frame: the coarsest whose error
+/// stays under the bound, but at most one above each of its four neighbours.
 /// @param morph  kOff: whole levels
 std::vector<float> patch_levels(const Terrain& terrain, const dvec3& eye, const ErrorBound& bound,
                                 Morph morph);

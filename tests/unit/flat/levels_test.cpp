@@ -103,12 +103,9 @@ TEST(Levels, NoErrorOnTheScreenIsAboveWhatTheBoundTakesItFor) {
     for (std::size_t k = 0; k < terrain->patch_count(); ++k) {
       const int level = 1 + static_cast<int>(3.99 * share(random));
       const int column = static_cast<int>(k % 6) * 16, row = static_cast<int>(k / 6) * 16, step = 1 << level;
-      const double side = 16 * terrain->spacing_m();
-      const glm::dvec3 low(terrain->x_m(column), terrain->y_m(row), terrain->patch(k).lowest_m);
-      const glm::dvec3 high(low.x + side, low.y + side, terrain->patch(k).highest_m);
-      const double nearest = glm::distance(eye, glm::clamp(eye, low, high));
-      const double error = terrain->patch(k).errors_m[static_cast<std::size_t>(level)];
-      const double predicted = error * bound.pixels_at_1m / nearest;
+      const double predicted =
+          static_cast<double>(terrain->patch(k).errors_m[static_cast<std::size_t>(level)]) *
+          pixels_a_metre(*terrain, k, eye, bound);
       double worst = -1.0;
       for (int j = 0; j <= 16; ++j) {
         for (int i = 0; i <= 16; ++i) {
@@ -129,7 +126,7 @@ TEST(Levels, NoErrorOnTheScreenIsAboveWhatTheBoundTakesItFor) {
             worst = std::max(worst, glm::distance(true_at, mesh_at));
         }
       }
-      if (worst < 0.0 || nearest < 1.0) continue;
+      if (worst < 0.0 || predicted > 1e6) continue;
       EXPECT_LE(worst, predicted) << "level " << level;
       said += std::log(predicted);
       seen += std::log(std::max(worst, 1e-9));
@@ -138,7 +135,7 @@ TEST(Levels, NoErrorOnTheScreenIsAboveWhatTheBoundTakesItFor) {
   }
   ASSERT_GT(patches, 1000);
   RecordProperty("mean_ratio", std::to_string(std::exp((said - seen) / patches)));
-  EXPECT_LT(std::exp((said - seen) / patches), 6.0);
+  EXPECT_LT(std::exp((said - seen) / patches), 4.0);
 }
 
 }  // namespace
