@@ -40,6 +40,7 @@ std::optional<scene::Scene> take_scene(const CLI::App& command, CameraOptions& o
   take(command, "--exaggeration", options.exaggeration, picture.exaggeration);
   if (picture.morph) take(command, "--morph", options.morph, std::optional(*picture.morph ? "on" : "off"));
   if (options.time.empty()) options.sun = scene->sun;
+  options.layers = scene->layers;
   return scene;
 }
 

@@ -116,12 +116,13 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
 
 std::shared_ptr<const globe::planet::Surface> open_planet(const ViewOptions& options) {
   const std::size_t bytes = static_cast<std::size_t>(options.memory_mb) << 20;
-  return open_planet(options.planet, bytes / 5 * 2, bytes / 5 * 3, options.exaggeration, options.sea_floor);
+  return open_planet(options.planet, bytes / 5 * 2, bytes / 5 * 3, options.exaggeration, options.sea_floor,
+                     options.layers);
 }
 
 std::shared_ptr<const globe::planet::Surface> open_planet(const CameraOptions& options) {
   return open_planet(options.planet, kDatasetCache, globe::planet::Surface::kDefaultCache,
-                     options.exaggeration);
+                     options.exaggeration, globe::planet::SeaFloor::kFlooded, options.layers);
 }
 
 Look parse_look(const std::string& text) {

@@ -25,6 +25,7 @@ struct CameraOptions {
   int detail = 64;
   std::string morph = "on";
   double exaggeration = 1.0;
+  globe::planet::LayerChoice layers;  ///< a scene's
   bool agl = false;
 };
 

@@ -17,6 +17,7 @@
 #include "globe/render/camera.h"
 #include "globe/render/draw_list.h"
 #include "globe/render/effect.h"
+#include "globe/render/effect_program.h"
 #include "globe/render/effect_shaders.h"
 #include "globe/render/light_picture.h"
 #include "globe/render/loader.h"
@@ -69,8 +70,8 @@ class GlobeRenderer : public SurfaceRenderer {
 
   const FrameStats& frame_stats() const override { return stats_; }
 
-  /// Loads the base level and has every program compiled, so that the first frames of a flight take no longer
-  /// than others.
+  /// Loads the base level and has programs compiled, those of the ground for any set of active effects, so
+  /// that the first frames of a flight take no longer than others.
   void warm_up(const gl::Framebuffer& target) override;
 
   /// True while levels are being computed in the background.
@@ -102,13 +103,14 @@ class GlobeRenderer : public SurfaceRenderer {
   EffectShaders effect_shaders_;
   std::vector<Verdict> verdicts_;                     ///< of effects_, in the frame begun last
   int active_ = 0;                                    ///< effects of the view being drawn
+  Serving serving_ = Serving::kItsSet;                ///< of a frame in real time not: it would stall
   std::shared_ptr<const planet::Coloring> coloring_;  ///< the last one of effects_; null: none
   Instant instant_;
   PatchDrawer patches_;
   gl::Buffer view_;
-  std::optional<LightPicture> light_;              ///< where effects have passes
-  std::array<gl::Program, kLooks.size()> ground_;  ///< by Look, in the order of kLooks
-  std::optional<Sky> sky_;                         ///< none with a background
+  std::optional<LightPicture> light_;                ///< where effects have passes
+  std::array<EffectProgram, kLooks.size()> ground_;  ///< by Look, in the order of kLooks
+  std::optional<Sky> sky_;                           ///< none with a background
   Loader loader_;
   Admission admission_;
   glm::dvec3 sun_{1, 0, 0};  ///< of this frame, as the next three
