@@ -84,6 +84,7 @@ void run(const BenchOptions& options) {
   for (BenchmarkEntry& entry : convert_benchmarks()) entries.push_back(std::move(entry));
   for (BenchmarkEntry& entry : flight_benchmarks(options.rounds)) entries.push_back(std::move(entry));
   for (BenchmarkEntry& entry : fractal_benchmarks()) entries.push_back(std::move(entry));
+  for (BenchmarkEntry& entry : flat_benchmarks(options.rounds)) entries.push_back(std::move(entry));
   std::vector<Benchmark> chosen;
   for (const BenchmarkEntry& entry : entries) {
     if (std::regex_search(entry.name, filter)) chosen.push_back(entry.prepare());

@@ -117,7 +117,7 @@ GeomipmapRenderer::GeomipmapRenderer(std::shared_ptr<const Terrain> terrain, std
   array_.set_attribute(2, {6, 4, GL_FLOAT, static_cast<GLuint>(offsetof(Instance, sides))});
   array_.set_attribute(2, {7, 1, GL_FLOAT, static_cast<GLuint>(offsetof(Instance, share))});
   array_.set_indices(indices_);
-  if (!settings_.background) sky_.emplace(settings_.air, settings_.air_steps);
+  if (!settings_.background) sky_.emplace(settings_.air, settings_.air_steps, no_effects_);
   make_passes();
 }
 
@@ -361,7 +361,7 @@ void GeomipmapRenderer::draw_view(const render::Camera& camera, const gl::Frameb
   for (const Pass& pass : passes_) set_uniforms(pass.program, camera);
   render::draw_wired(settings_.wireframe, [&](const glm::vec4& overlay) { draw_passes(overlay); });
   if (settings_.wireframe) stats_.triangles /= 2;  // drawn twice
-  if (sky_) sky_->draw(view);
+  if (sky_) sky_->draw(view, 0, render::Serving::kItsSet);
   let_go();
   stats_.gpu_bytes = lightmap_.bytes() + heights_.size() + instances_.size() + indices_.size();
   for (const std::size_t patch : held_) stats_.gpu_bytes += active_[patch]->buffer.size();

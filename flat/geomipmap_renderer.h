@@ -20,6 +20,7 @@
 #include "globe/gl/texture.h"
 #include "globe/gl/vertex_array.h"
 #include "globe/render/air.h"
+#include "globe/render/effect_shaders.h"
 #include "globe/render/globe_renderer.h"
 #include "globe/render/sky.h"
 #include "globe/render/surface_renderer.h"
@@ -113,6 +114,7 @@ class GeomipmapRenderer : public render::SurfaceRenderer {
   gl::VertexArray array_;
   std::vector<Pass> passes_;
   gl::Texture lightmap_, clouds_;
+  render::EffectShaders no_effects_;
   std::optional<render::Sky> sky_;
   render::Instant instant_;
   std::optional<dvec3> lit_by_;  ///< sun of the lightmap, ECEF

@@ -6,14 +6,16 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "flat/box.h"
+
 namespace globe::flat {
 
-float level_for(const std::array<float, kLevels>& errors_m, double allowed_m) {
+float level_for(const LevelErrors& errors, double allowed) {
   for (std::size_t level = 0; level + 1 < kLevels; ++level) {
-    const auto fine = static_cast<double>(errors_m[level]);
-    const auto coarse = static_cast<double>(errors_m[level + 1]);
-    if (coarse <= allowed_m) continue;
-    const double share = std::max(allowed_m - fine, 0.0) / (coarse - fine);
+    const auto fine = static_cast<double>(errors[level]);
+    const auto coarse = static_cast<double>(errors[level + 1]);
+    if (coarse <= allowed) continue;
+    const double share = std::max(allowed - fine, 0.0) / (coarse - fine);
     const double steps = std::floor(share / static_cast<double>(kLevelStep));
     return static_cast<float>(level) + std::min(static_cast<float>(steps) * kLevelStep, 1.0f - kLevelStep);
   }
@@ -47,19 +49,33 @@ void limit_steps(std::vector<float>& levels, int patches_east, int patches_north
   }
 }
 
+LevelErrors pixels_off(const Terrain& terrain, std::size_t patch, const dvec3& eye, const ErrorBound& bound) {
+  const Box box = patch_box(terrain, patch);
+  const dvec3 middle = 0.5 * (box.low + box.high);
+  LevelErrors pixels{};
+  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+    Box part = box;
+    (quarter % 2 == 0 ? part.high : part.low).x = middle.x;
+    (quarter / 2 == 0 ? part.high : part.low).y = middle.y;
+    const dvec3 nearest = glm::clamp(eye, part.low, part.high);
+    // Of all lines of sight into the box the farthest from the vertical.
+    const double level = std::hypot(std::max(std::abs(eye.x - part.low.x), std::abs(eye.x - part.high.x)),
+                                    std::max(std::abs(eye.y - part.low.y), std::abs(eye.y - part.high.y)));
+    const double across = level / std::hypot(level, eye.z - nearest.z);
+    const double a_metre = bound.pixels_at_1m * across / std::max(glm::distance(eye, nearest), 1e-6);
+    for (std::size_t k = 0; k < kLevels; ++k)
+      pixels[k] = std::max(
+          pixels[k],
+          static_cast<float>(a_metre * static_cast<double>(terrain.patch(patch).errors_m[quarter][k])));
+  }
+  return pixels;
+}
+
 std::vector<float> patch_levels(const Terrain& terrain, const dvec3& eye, const ErrorBound& bound,
                                 Morph morph) {
   std::vector<float> levels(terrain.patch_count());
-  const auto east = static_cast<std::size_t>(terrain.patches_east());
-  const double side = kPatchCells * terrain.spacing_m();
-  const double allowed_at_1m = bound.pixels / bound.pixels_at_1m;
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    const PatchSummary& patch = terrain.patch(k);
-    const dvec3 low(terrain.x_m(static_cast<int>(k % east) * kPatchCells),
-                    terrain.y_m(static_cast<int>(k / east) * kPatchCells), patch.lowest_m);
-    const dvec3 high(low.x + side, low.y + side, patch.highest_m);
-    const double nearest = glm::distance(eye, glm::clamp(eye, low, high));
-    levels[k] = level_for(patch.errors_m, nearest * allowed_at_1m);
+    levels[k] = level_for(pixels_off(terrain, k, eye, bound), bound.pixels);
     if (morph == Morph::kOff) levels[k] = std::floor(levels[k]);
   }
   limit_steps(levels, terrain.patches_east(), terrain.patches_north());

@@ -18,10 +18,10 @@ enum class Morph {
 /// Levels are whole multiples of this, so that differences and sums of them are exact.
 inline constexpr float kLevelStep = 1.0f / 1024.0f;
 
-/// The coarsest real-valued level whose error is at most `allowed_m`, in [0, 4]: level l + f has the mesh of
-/// l whose vertices have gone the share f of their way to that of l + 1, and an error of at most
+/// The coarsest real-valued level whose error is at most `allowed`, in [0, 4]: level l + f has the mesh of l
+/// whose vertices have gone the share f of their way to that of l + 1, and an error of at most
 /// (1 - f) errors[l] + f errors[l + 1].
-float level_for(const std::array<float, kLevels>& errors_m, double allowed_m);
+float level_for(const LevelErrors& errors, double allowed);
 
 /// How a view sees errors.
 struct ErrorBound {
@@ -33,8 +33,13 @@ struct ErrorBound {
 /// @param fov_y_deg, aspect  of a pinhole camera
 ErrorBound error_bound(double pixels, double fov_y_deg, double aspect, int picture_height);
 
-/// Level of every patch as seen from a place of the frame: the coarsest under the bound at the patch's
-/// nearest point, but at most one above each of its four neighbours.
+/// Pixels that the meshes of a patch's levels are off by on the screen at the most, seen from a place of the
+/// frame: the error of each quarter at its nearest point, from above only as much of it as stands across the
+/// line of sight. @approximation flat.error
+LevelErrors pixels_off(const Terrain& terrain, std::size_t patch, const dvec3& eye, const ErrorBound& bound);
+
+/// Level of every patch as seen from a place of the frame: the coarsest whose error
+/// stays under the bound, but at most one above each of its four neighbours.
 /// @param morph  kOff: whole levels
 std::vector<float> patch_levels(const Terrain& terrain, const dvec3& eye, const ErrorBound& bound,
                                 Morph morph);

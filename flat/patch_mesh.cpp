@@ -7,7 +7,9 @@ namespace {
 
 namespace shader {
 using namespace glm;
+#define precise
 #include "shaders/flat/geomorph.glsl"
+#undef precise
 }  // namespace shader
 
 glm::vec4 as_vector(const std::array<float, kSides>& values) {

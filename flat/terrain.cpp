@@ -25,6 +25,13 @@ double mesh_z(const Terrain& terrain, int first_column, int first_row, int level
                  static_cast<double>(column - i * step) / step, static_cast<double>(row - j * step) / step);
 }
 
+/// Whether a post lies in a quarter or on its border.
+bool touches(std::size_t quarter, int column, int row) {
+  constexpr int kHalf = kPatchCells / 2;
+  return (quarter % 2 == 0 ? column <= kHalf : column >= kHalf) &&
+         (quarter / 2 == 0 ? row <= kHalf : row >= kHalf);
+}
+
 PatchSummary summary_of(const Terrain& terrain, int patch_column, int patch_row) {
   PatchSummary summary;
   const int first_column = patch_column * kPatchCells;
@@ -37,13 +44,19 @@ PatchSummary summary_of(const Terrain& terrain, int patch_column, int patch_row)
       summary.highest_m = std::max(summary.highest_m, z);
       for (std::size_t level = 1; level < kLevels; ++level) {
         const double mesh = mesh_z(terrain, first_column, first_row, static_cast<int>(level), column, row);
-        summary.errors_m[level] =
-            std::max(summary.errors_m[level], static_cast<float>(std::abs(mesh - static_cast<double>(z))));
+        const auto error = static_cast<float>(std::abs(mesh - static_cast<double>(z)));
+        for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+          if (!touches(quarter, column, row)) continue;
+          float& largest = summary.errors_m[quarter][level];
+          largest = std::max(largest, error);
+        }
       }
     }
   }
-  for (std::size_t level = 1; level < kLevels; ++level)
-    summary.errors_m[level] = std::max(summary.errors_m[level], summary.errors_m[level - 1]);
+  for (LevelErrors& errors : summary.errors_m) {
+    for (std::size_t level = 1; level < kLevels; ++level)
+      errors[level] = std::max(errors[level], errors[level - 1]);
+  }
   return summary;
 }
 

@@ -16,11 +16,15 @@ inline constexpr int kPatchCells = 16;
 /// Level 0 draws every post of a patch, level 4 its corners alone: 512, 128, 32, 8, 2 triangles.
 inline constexpr int kLevels = 5;
 
+/// Distances along z between the mesh of a level and that of level 0, metres; the array grows with the level.
+using LevelErrors = std::array<float, kLevels>;
+
 /// What is known of a patch as long as it is not drawn.
 struct PatchSummary {
   float lowest_m = 0, highest_m = 0;  ///< z of its posts
-  /// Largest distance along z between the mesh of a level and that of level 0, metres; grows with the level.
-  std::array<float, kLevels> errors_m{};
+  /// The largest of each quarter: south-west, south-east, north-west, north-east. Seen from near, one quarter
+  /// counts for more than the others.
+  std::array<LevelErrors, 4> errors_m{};
 };
 
 /// A rectangle of patches as it is drawn: posts of a regular grid in a tangent frame, each at the very place

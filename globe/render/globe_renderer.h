@@ -56,8 +56,6 @@ struct EffectState {
 /// it is given.
 class GlobeRenderer : public SurfaceRenderer {
  public:
-  GlobeRenderer(const GlobeRenderer&) = delete;
-  GlobeRenderer& operator=(const GlobeRenderer&) = delete;
   /// A GL context must be current and stay so.
   GlobeRenderer(std::shared_ptr<const planet::Surface> surface, const RenderSettings& settings,
                 std::vector<NamedEffect> effects = {});

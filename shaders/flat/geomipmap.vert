@@ -33,7 +33,7 @@ flat out vec2 level_and_number;
 invariant gl_Position;
 
 void main() {
-  float z = stored_z;
+  precise float z = stored_z;
 #ifdef MORPH
   z = geomorph(stored_z, self_move, side_moves, both_moves, self_share, side_shares);
 #endif

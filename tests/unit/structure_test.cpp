@@ -159,4 +159,16 @@ TEST(ClipmapShader, ImpreciseStepsAreFound) {
       imprecisions(with("position += slot.offset.xyz;", "position += slot.offset.xyz * scale;")).empty());
 }
 
+/// The same of local regions, whose patches meet as two computations of one vertex (flat/patch_mesh.h).
+TEST(GeomipmapShader, EveryStepToThePositionIsPrecise) {
+  const fs::path folder = fs::path(GLOBE_SOURCE_DIR) / "shaders/flat";
+  const std::string shader = text_of(folder / "geomipmap.vert");
+  EXPECT_NE(shader.find("invariant gl_Position;"), std::string::npos);
+  EXPECT_EQ(matches(shader, R"re((precise (?:float z|vec3 local|vec3 position|vec4 clip)) =)re").size(), 4u);
+  EXPECT_EQ(matches(shader, R"re(gl_Position\s*=\s*([^;]+);)re"), std::vector<std::string>{"clip"});
+  const std::string morph = text_of(folder / "geomorph.glsl");
+  EXPECT_EQ(matches(morph, R"re(\n  (precise )(?:float|vec4) \w+ =)re").size(), 3u);
+  EXPECT_EQ(matches(morph, R"re(\n  ((?:float|vec4) \w+ =))re").size(), 0u);
+}
+
 }  // namespace
