@@ -18,9 +18,14 @@
 #include "globe/base/error.h"
 #include "globe/base/pending_file.h"
 #include "globe/gl/context.h"
+#include "globe/planet/surface.h"
 
 namespace app {
 namespace {
+
+/// Bytes that the planet keeps of what is drawn: half of what it keeps elsewhere, for frames take their
+/// share.
+constexpr std::size_t kPlanetCache = globe::planet::Surface::kDefaultCache / 2;
 
 struct AccuracyOptions {
   std::string folder;
@@ -109,20 +114,21 @@ void run(const AccuracyOptions& options) {
   Progress progress(progress_style(options.quiet, false));
   accuracy::Scope scope{options.suite == "full"};
   if (std::any_of(chosen.begin(), chosen.end(), [](const auto& family) { return family.draws; }))
-    scope.context = std::make_shared<globe::gl::Context>();
-  std::vector<accuracy::Study> studies{accuracy::pace_of_machine(scope.context)};
+    scope = {scope.full, std::make_shared<globe::gl::Context>(),
+             globe::planet::Surface::builtin(1, kPlanetCache)};
+  std::vector<accuracy::Study> studies;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     progress.show("errors of " + chosen[k].name, static_cast<double>(k) / static_cast<double>(chosen.size()));
     for (accuracy::Study& study : chosen[k].studies(scope)) studies.push_back(std::move(study));
   }
-  std::vector<accuracy::MeasuredStudy> measured = accuracy::measure(
-      std::move(studies), accuracy::rounds_of(scope), [&](double done) { progress.show("measuring", done); });
+  accuracy::MeasuredBeside measured = accuracy::measure_beside(
+      accuracy::pace_of_machine(scope.context), std::move(studies), accuracy::rounds_of(scope),
+      [&](double done) { progress.show("measuring", done); });
   progress.show("drawing", 1.0);
   const std::string command = "globe accuracy -o " + options.folder + " --suite " + options.suite +
                               (options.only.empty() ? "" : " --only " + options.only);
-  accuracy::Report report{accuracy::provenance(command, options.suite), std::move(measured.front()), {}};
-  report.studies.assign(std::make_move_iterator(measured.begin() + 1),
-                        std::make_move_iterator(measured.end()));
+  const accuracy::Report report{accuracy::provenance(command, options.suite), std::move(measured.pace),
+                                std::move(measured.studies)};
   write(page, accuracy::html_of(report), options.overwrite);
   write(rows, accuracy::csv_of(report), options.overwrite);
   write(json, accuracy::json_of(report), options.overwrite);

@@ -1,12 +1,14 @@
 #include "app/bench.h"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "app/bench_fractal.h"
 #include "app/commands.h"
 #include "app/flight_stats.h"
 #include "globe/base/error.h"
@@ -81,6 +83,7 @@ void run(const BenchOptions& options) {
   for (BenchmarkEntry& entry : line_benchmarks()) entries.push_back(std::move(entry));
   for (BenchmarkEntry& entry : convert_benchmarks()) entries.push_back(std::move(entry));
   for (BenchmarkEntry& entry : flight_benchmarks(options.rounds)) entries.push_back(std::move(entry));
+  for (BenchmarkEntry& entry : fractal_benchmarks()) entries.push_back(std::move(entry));
   for (BenchmarkEntry& entry : flat_benchmarks(options.rounds)) entries.push_back(std::move(entry));
   std::vector<Benchmark> chosen;
   for (const BenchmarkEntry& entry : entries) {
@@ -130,10 +133,10 @@ void run(const BenchOptions& options) {
 Interval median_interval(std::vector<double> values) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
-  const auto n = static_cast<double>(values.size());
-  const double half = 0.98 * std::sqrt(n);  // 1.96 standard deviations of a binomial of one half
-  const auto clamp = [&](double rank) { return static_cast<std::size_t>(std::clamp(rank, 0.0, n - 1.0)); };
-  return {values[clamp(std::floor(n / 2.0 - half))], values[clamp(std::ceil(n / 2.0 + half) - 1.0)]};
+  // The median lies below all but r values with the probability of at most r heads in so many tosses.
+  const boost::math::binomial tosses(static_cast<double>(values.size()), 0.5);
+  const auto outside = static_cast<std::size_t>(quantile(tosses, 0.025));
+  return {values[outside], values[values.size() - 1 - outside]};
 }
 
 std::vector<BenchmarkResult> run_interleaved(std::vector<Benchmark>& benchmarks, int rounds) {

@@ -28,8 +28,9 @@ struct BenchmarkResult {
   std::vector<double> ns;
 };
 
-/// Lower and upper end of the 95 % confidence interval of the median, by order statistics (binomial), of
-/// sorted values.
+/// Lower and upper end of the confidence interval of the median, by order statistics: the narrowest pair of
+/// values, as far from either end, between which it lies in 95 % or more of all cases, by the binomial
+/// distribution itself; of fewer than six values the least and the largest, which hold it less often.
 struct Interval {
   double low = 0;
   double high = 0;

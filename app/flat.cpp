@@ -33,7 +33,7 @@ namespace geo = globe::geo;
 namespace render = globe::render;
 
 struct FlatOptions : ViewOptions {
-  RegionOptions region;
+  FlatRegionOptions region;
   std::string at;
   double error_px = 1.0;
   std::string morph_by = "gpu";
@@ -59,7 +59,7 @@ void add_flat_options(CLI::App& command, FlatOptions& options) {
           "a height map of a place, a folder made by globe convert or procedural[:SEED] (with --center), "
           "or a scene, SCENE.toml")
       ->required();
-  add_region_options(command, options.region);
+  add_flat_region_options(command, options.region);
   add_eye_options(command, options);
   add_picture_options(command, options);
   add_output_options(command, options);
@@ -270,7 +270,7 @@ void film(FilmOptions options, const CLI::App& command) {
 }
 
 struct PvsOptions : ViewOptions {
-  RegionOptions region;
+  FlatRegionOptions region;
 };
 
 void write_pvs(const PvsOptions& options) {
@@ -321,7 +321,7 @@ void add_flat(CLI::App& program) {
   pvs_command
       ->add_option("REGION", pvs->planet, "as for shot and fly, with the same --center, --side, --spacing")
       ->required();
-  add_region_options(*pvs_command, pvs->region);
+  add_flat_region_options(*pvs_command, pvs->region);
   pvs_command->add_option("--exaggeration", pvs->exaggeration, "as for shot and fly")
       ->capture_default_str()
       ->check(in_range(0.0, 100.0));

@@ -46,7 +46,7 @@ std::optional<double> length_of(const std::string& text, const std::string& opti
   throw globe::UsageError(option + " " + text, "not a length up to 4000 km", "give one such as 40km");
 }
 
-std::optional<geo::Geodetic> center_of(const RegionOptions& options) {
+std::optional<geo::Geodetic> center_of(const FlatRegionOptions& options) {
   if (options.center.empty()) return std::nullopt;
   return parse_point(options.center).position;
 }
@@ -125,7 +125,7 @@ HalfSize known_size(const converters::LocalGround& ground, const flat::TangentFr
   return widest;
 }
 
-Region region_of_map(const ViewOptions& options, const RegionOptions& asked) {
+Region region_of_map(const ViewOptions& options, const FlatRegionOptions& asked) {
   Progress progress(progress_style(options.quiet, false));
   const auto ground = std::make_shared<converters::LocalGround>(
       converters::MapInput{options.planet}, geo::kWgs84, static_cast<std::size_t>(options.memory_mb) << 20,
@@ -163,7 +163,7 @@ Region region_of_map(const ViewOptions& options, const RegionOptions& asked) {
   return region;
 }
 
-Region region_of_planet(const ViewOptions& options, const RegionOptions& asked,
+Region region_of_planet(const ViewOptions& options, const FlatRegionOptions& asked,
                         const std::optional<geo::Geodetic>& around) {
   const auto center = asked.center.empty() ? around : center_of(asked);
   if (!center) {
@@ -212,7 +212,7 @@ bool names_planet(const std::string& word) {
 
 }  // namespace
 
-void add_region_options(CLI::App& command, RegionOptions& options) {
+void add_flat_region_options(CLI::App& command, FlatRegionOptions& options) {
   command.add_option("--center", options.center,
                      "LAT,LON: the middle of the region (default: of the map; of a planet where --at is)");
   command.add_option("--side", options.side,
@@ -222,7 +222,7 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
                      "the side)");
 }
 
-Region open_region(const ViewOptions& options, const RegionOptions& region,
+Region open_region(const ViewOptions& options, const FlatRegionOptions& region,
                    const std::optional<geo::Geodetic>& around) {
   if (names_planet(options.planet)) return region_of_planet(options, region, around);
   return region_of_map(options, region);

@@ -11,12 +11,12 @@
 namespace app {
 
 /// What part of the ground `globe flat` draws, as it is written.
-struct RegionOptions {
+struct FlatRegionOptions {
   std::string center;   ///< LAT,LON
   std::string side;     ///< with a unit
   std::string spacing;  ///< likewise
 };
-void add_region_options(CLI::App& command, RegionOptions& options);
+void add_flat_region_options(CLI::App& command, FlatRegionOptions& options);
 
 /// A region that is open.
 struct Region {
@@ -33,7 +33,7 @@ struct Region {
 /// A map's posts are as far apart as its samples unless --spacing says otherwise, of both at most kMostPosts
 /// a side. Of a planet a region is 40 km wide, 1025 posts a side. Voids are filled from what is around them,
 /// which a warning tells. Throws globe::Error or UsageError.
-Region open_region(const ViewOptions& options, const RegionOptions& region,
+Region open_region(const ViewOptions& options, const FlatRegionOptions& region,
                    const std::optional<globe::geo::Geodetic>& around);
 inline constexpr int kMostPosts = 4097;
 

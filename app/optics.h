@@ -47,8 +47,8 @@ class Lens {
   Lens(const Optics& optics, int width, int height, int samples, const std::optional<glm::vec3>& outside);
 
   /// Draws into target().
-  globe::render::FrameStats draw(globe::render::SurfaceRenderer& renderer, const globe::render::Camera& camera,
-                                 const glm::dvec3& sun, bool wait,
+  globe::render::FrameStats draw(globe::render::SurfaceRenderer& renderer,
+                                 const globe::render::Camera& camera, const glm::dvec3& sun, bool wait,
                                  double upload_ms = globe::render::SurfaceRenderer::kUploadTime);
   void warm_up(globe::render::SurfaceRenderer& renderer) const;
   const globe::gl::Framebuffer& target() const { return target_; }

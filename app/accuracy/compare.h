@@ -10,9 +10,12 @@ namespace app::accuracy {
 /// In what two reports agree, setting by setting of those that both have.
 struct Comparison {
   std::size_t settings = 0;
-  std::size_t equal_errors = 0;          ///< the largest, where it was and the RMS, to the last digit
-  std::size_t varying = 0;               ///< settings whose cost is measured, not counted
-  std::size_t overlapping = 0;           ///< of these: whose 95 % intervals have a cost in common
+  std::size_t equal_errors = 0;         ///< the largest, where it was and the RMS, to the last digit
+  std::size_t varying = 0;              ///< settings whose cost is measured, not counted
+  std::size_t overlapping = 0;          ///< of these: whose 95 % intervals have a cost in common
+  std::size_t paced = 0;                ///< of `varying`: that can be told by the pace of each pass
+  std::size_t overlapping_by_pace = 0;  ///< of these: whose intervals overlap when each pass' cost is divided
+                                        ///< by what the fixed work took in that pass
   std::vector<std::string> differences;  ///< a line each; settings that one report alone has among them
   std::vector<std::string> paces;        ///< a line each (pace.h)
 };

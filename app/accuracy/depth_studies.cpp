@@ -24,6 +24,9 @@ struct Distance {
 
 std::vector<Study> depth_studies(const Scope& scope) {
   std::vector<Study> studies;
+  std::vector<std::shared_ptr<const DepthPlanes>> planes;
+  for (const DepthScheme scheme : kDepthSchemes)
+    planes.push_back(std::make_shared<const DepthPlanes>(scope.context, scheme, 1280, 720));
   for (const auto& [word, words, distance_m] :
        {Distance{"1m", "1 m", 1.0}, Distance{"100m", "100 m", 100.0}, Distance{"10km", "10 km", 1e4},
         Distance{"1000km", "1000 km", 1e6}, Distance{"100000km", "100,000 km", 1e8}}) {
@@ -37,7 +40,8 @@ std::vector<Study> depth_studies(const Scope& scope) {
                 "m",
                 "ms for 8 planes of 1280x720 pixels",
                 {}};
-    for (const DepthScheme scheme : kDepthSchemes) {
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+      const DepthScheme scheme = kDepthSchemes[k];
       ErrorSum sum;
       for (const double at : depth_sample(distance_m)) {
         sum.add(smallest_separation(scheme, at), [&] {
@@ -46,11 +50,11 @@ std::vector<Study> depth_studies(const Scope& scope) {
           return std::string(text);
         });
       }
-      const auto planes = std::make_shared<const DepthPlanes>(scope.context, scheme, 1280, 720);
-      study.settings.push_back({name_of(scheme), sum.figure(),
-                                [planes, at = planes_from(distance_m)] { return planes->draw_ms(at); },
-                                scheme == DepthScheme::kReversedFloat,
-                                sum.figure().max > 0.8 * kFar ? "tells nothing apart" : ""});
+      study.settings.push_back(
+          {name_of(scheme), sum.figure(),
+           [drawn = planes[k], at = planes_from(distance_m)] { return drawn->draw_ms(at); },
+           scheme == DepthScheme::kReversedFloat,
+           sum.figure().max > 0.8 * kFar ? "tells nothing apart" : ""});
     }
     studies.push_back(std::move(study));
   }

@@ -27,7 +27,7 @@ Study study_of(const std::string& name, const std::string& title, const std::str
 }  // namespace
 
 std::vector<Study> detail_studies(const Scope& scope) {
-  const std::shared_ptr<const globe::planet::Surface> surface = globe::planet::Surface::builtin(1);
+  const std::shared_ptr<const globe::planet::Surface>& surface = scope.planet;
   const int rows = scope.full ? kRowsFull : kRowsQuick;
   std::vector<int> details{16, 32, 64, 128};
   if (scope.full) details.push_back(256);
@@ -43,12 +43,18 @@ std::vector<Study> detail_studies(const Scope& scope) {
                              "thousand triangles, from 2 km", rows);
   Study textures =
       study_of("textures", "Size of the triangles, against memory", "MB of textures, from 2 km", rows);
-  for (std::size_t k = 0; k < details.size(); ++k) {
+  // They are not released between passes: the finest takes seconds to make. That one first, for what it takes
+  // while it is made is as much again as it holds.
+  std::vector<std::shared_ptr<RepeatedFrame>> made(details.size());
+  for (std::size_t k = details.size(); k-- > 0;) {
     globe::render::RenderSettings ground;
     ground.clipmap = settings[k];
-    const auto frame =
+    made[k] =
         std::make_shared<RepeatedFrame>(scope.context, surface, ground, kPicture.width, kPicture.height);
-    frame->draw_ms(camera, sun);
+    made[k]->draw_ms(camera, sun);
+  }
+  for (std::size_t k = 0; k < details.size(); ++k) {
+    const std::shared_ptr<RepeatedFrame>& frame = made[k];
     const std::string name = "s = " + std::to_string(details[k]);
     const bool is_default = details[k] == kDefault;
     frames.settings.push_back({name, errors[k], [=] { return frame->draw_ms(camera, sun); }, is_default});

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/accuracy/drawing_quality.h"
+#include "app/accuracy/remade.h"
 #include "app/accuracy/repeated_frame.h"
 #include "app/accuracy/study.h"
 #include "globe/render/wide_view.h"
@@ -18,26 +19,26 @@ namespace render = globe::render;
 constexpr int kSide = 512;  ///< of the dome's picture, pixels
 constexpr int kFiner = 4;   ///< pixels of the reference in one of the picture, across and down
 
+using Ground = std::shared_ptr<Remade<render::GlobeRenderer>>;  ///< what all domes show
+
 /// A dome drawn from one place again and again.
 class Dome {
  public:
-  Dome(std::shared_ptr<globe::gl::Context> context,
-       const std::shared_ptr<const globe::planet::Surface>& surface, int side, int face_side,
-       render::Camera camera)
+  Dome(std::shared_ptr<globe::gl::Context> context, Ground ground, int side, int face_side,
+       render::Camera camera, const glm::dvec3& sun)
       : context_(std::move(context)),
-        renderer_(surface, {}),
+        ground_(std::move(ground)),
         view_({render::Projection::kFisheye, side, side, 180.0, 1, face_side}),
         target_(side, side),
         camera_(std::move(camera)),
-        sun_(sun_over(*surface, camera_)) {
-    view_.warm_up(renderer_);
+        sun_(sun) {
     draw_ms();
   }
 
   double draw_ms() {
     glFinish();
     const auto begin = std::chrono::steady_clock::now();
-    view_.draw(renderer_, camera_, sun_, true, target_);
+    view_.draw(ground_->get(), camera_, sun_, true, target_);
     glFinish();
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   }
@@ -46,7 +47,7 @@ class Dome {
 
  private:
   std::shared_ptr<globe::gl::Context> context_;  ///< outlives what is made in it
-  render::GlobeRenderer renderer_;
+  Ground ground_;
   render::WideView view_;
   globe::gl::Framebuffer target_;
   render::Camera camera_;
@@ -68,9 +69,11 @@ std::vector<double> means(const std::vector<std::uint8_t>& fine) {
 }  // namespace
 
 std::vector<Study> dome_studies(const Scope& scope) {
-  const std::shared_ptr<const globe::planet::Surface> surface = globe::planet::Surface::builtin(1);
-  const render::Camera camera = judged_views(*surface, {})[3].camera;
-  const std::vector<double> truth = means(Dome(scope.context, surface, kSide * kFiner, 0, camera).picture());
+  const render::Camera camera = judged_views(*scope.planet, {})[3].camera;
+  const glm::dvec3 sun = sun_over(*scope.planet, camera);
+  const Ground ground = remade<render::GlobeRenderer>(scope.planet, render::RenderSettings{});
+  const std::vector<double> truth =
+      means(Dome(scope.context, ground, kSide * kFiner, 0, camera, sun).picture());
   Study study{"domes.faces",
               "Texels of the cube that a dome's picture is made of",
               "--faces",
@@ -79,10 +82,11 @@ std::vector<Study> dome_studies(const Scope& scope) {
               "steps of 255",
               "ms a frame",
               {}};
-  const int usual = Dome(scope.context, surface, kSide, 0, camera).face_side();
+  const int usual = Dome(scope.context, ground, kSide, 0, camera, sun).face_side();
   for (const int side : {usual / 2, usual * 3 / 4, usual, usual * 2}) {
-    const auto dome = std::make_shared<Dome>(scope.context, surface, kSide, side, camera);
-    const std::vector<std::uint8_t> drawn = dome->picture();
+    const auto dome = remade<Dome>(scope.context, ground, kSide, side, camera, sun);
+    const std::vector<std::uint8_t> drawn = dome->get().picture();
+    dome->release();
     ErrorSum sum;
     for (std::size_t k = 0; k < drawn.size(); ++k) {
       if (k % 4 == 3) continue;  // opaque
@@ -91,9 +95,17 @@ std::vector<Study> dome_studies(const Scope& scope) {
         return "pixel " + std::to_string(pixel % kSide) + "," + std::to_string(pixel / kSide);
       });
     }
-    study.settings.push_back(
-        {std::to_string(side) + " a side", sum.figure(), [=] { return dome->draw_ms(); }, side == usual});
+    study.settings.push_back({std::to_string(side) + " a side",
+                              sum.figure(),
+                              [=] { return dome->get().draw_ms(); },
+                              side == usual,
+                              {},
+                              [=] {
+                                dome->release();
+                                ground->release();
+                              }});
   }
+  ground->release();
   return {std::move(study)};
 }
 

@@ -13,14 +13,21 @@ namespace {
 constexpr Rounds kQuick;
 constexpr Rounds kFull{12, 8, std::chrono::seconds(5)};
 
+void run_round(const Study& study, std::size_t pass, std::vector<PassCosts>& costs) {
+  for (std::size_t k = 0; k < study.settings.size(); ++k) costs[k][pass].push_back(study.settings[k].cost());
+}
+
 /// One round after another of all settings, as many as a pass has.
 void run_pass(const Study& study, const Rounds& rounds, std::size_t pass, std::vector<PassCosts>& costs) {
+  for (const Setting& setting : study.settings)
+    if (setting.release) setting.cost();  // makes what it needs
   const auto begin = std::chrono::steady_clock::now();
   for (std::size_t round = 0; round < rounds.most; ++round) {
     if (round > 0 && std::chrono::steady_clock::now() - begin > rounds.enough) break;
-    for (std::size_t k = 0; k < study.settings.size(); ++k)
-      costs[k][pass].push_back(study.settings[k].cost());
+    run_round(study, pass, costs);
   }
+  for (const Setting& setting : study.settings)
+    if (setting.release) setting.release();
 }
 
 MeasuredStudy measured_of(Study study, const std::vector<PassCosts>& costs) {
@@ -29,6 +36,7 @@ MeasuredStudy measured_of(Study study, const std::vector<PassCosts>& costs) {
   for (std::size_t k = 0; k < costs.size(); ++k) {
     measured.costs.push_back(cost_figure(costs[k]));
     measured.study.settings[k].cost = nullptr;  // and what it holds: windows, contexts
+    measured.study.settings[k].release = nullptr;
     errors.push_back(measured.study.settings[k].error.max);
     medians.push_back(measured.costs.back().median);
   }
@@ -48,7 +56,7 @@ CostFigure cost_figure(const PassCosts& passes) {
   }
   const Interval interval = median_interval(medians);
   return {percentile(medians, 50), percentile(all, 25), percentile(all, 75), interval.low,
-          interval.high,           all.size()};
+          interval.high,           all.size(),          std::move(medians)};
 }
 
 std::vector<bool> pareto_front(const std::vector<double>& errors, const std::vector<double>& costs) {
@@ -66,18 +74,28 @@ std::vector<bool> pareto_front(const std::vector<double>& errors, const std::vec
 
 std::vector<MeasuredStudy> measure(std::vector<Study> studies, const Rounds& rounds,
                                    const std::function<void(double)>& progress) {
+  return measure_beside({}, std::move(studies), rounds, progress).studies;
+}
+
+MeasuredBeside measure_beside(Study pace, std::vector<Study> studies, const Rounds& rounds,
+                              const std::function<void(double)>& progress) {
+  const auto none_of = [&](const Study& study) {
+    return std::vector<PassCosts>(study.settings.size(), PassCosts(rounds.passes));
+  };
+  std::vector<PassCosts> pace_costs = none_of(pace);
   std::vector<std::vector<PassCosts>> costs;  // study, setting
-  for (const Study& study : studies) costs.emplace_back(study.settings.size(), PassCosts(rounds.passes));
+  for (const Study& study : studies) costs.push_back(none_of(study));
   const auto turns = static_cast<double>(rounds.passes * studies.size());
   for (std::size_t pass = 0; pass < rounds.passes; ++pass) {
     for (std::size_t s = 0; s < studies.size(); ++s) {
       progress(static_cast<double>(pass * studies.size() + s) / turns);
+      run_round(pace, pass, pace_costs);
       run_pass(studies[s], rounds, pass, costs[s]);
     }
   }
-  std::vector<MeasuredStudy> measured;
+  MeasuredBeside measured{measured_of(std::move(pace), pace_costs), {}};
   for (std::size_t s = 0; s < studies.size(); ++s)
-    measured.push_back(measured_of(std::move(studies[s]), costs[s]));
+    measured.studies.push_back(measured_of(std::move(studies[s]), costs[s]));
   return measured;
 }
 

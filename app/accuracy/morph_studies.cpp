@@ -1,5 +1,6 @@
 #include "app/accuracy/drawing_quality.h"
 #include "app/accuracy/pop.h"
+#include "app/accuracy/remade.h"
 #include "app/accuracy/repeated_frame.h"
 #include "app/accuracy/study.h"
 #include "globe/planet/scenic.h"
@@ -16,7 +17,7 @@ constexpr PictureSize kPicture;
 }  // namespace
 
 std::vector<Study> morph_studies(const Scope& scope) {
-  const std::shared_ptr<const Surface> surface = Surface::builtin(1);
+  const std::shared_ptr<const Surface>& surface = scope.planet;
   std::vector<globe::geo::Geodetic> at{globe::planet::scenic_place(*surface).place};
   if (scope.full) at.insert(at.end(), {{0.013, 89.983}, {35.2644, -135.0}, {41.3, 0.0}, {0.0, 30.7}});
   const int step = scope.full ? 1 : 3;
@@ -43,10 +44,13 @@ std::vector<Study> morph_studies(const Scope& scope) {
     }
     globe::render::RenderSettings ground;
     ground.clipmap.morph = morph;
-    const auto frame =
-        std::make_shared<RepeatedFrame>(scope.context, surface, ground, kPicture.width, kPicture.height);
-    study.settings.push_back(
-        {morph ? "on" : "off", sum.figure(), [=] { return frame->draw_ms(camera, sun); }, morph});
+    const auto frame = remade<RepeatedFrame>(scope.context, surface, ground, kPicture.width, kPicture.height);
+    study.settings.push_back({morph ? "on" : "off",
+                              sum.figure(),
+                              [=] { return frame->get().draw_ms(camera, sun); },
+                              morph,
+                              {},
+                              release_of(frame)});
   }
   return {std::move(study)};
 }

@@ -3,6 +3,7 @@
 
 #include "app/accuracy/position_error.h"
 #include "app/accuracy/position_yardsticks.h"
+#include "app/accuracy/remade.h"
 #include "app/accuracy/repeated_frame.h"
 #include "app/accuracy/study.h"
 
@@ -171,7 +172,7 @@ Study memory_study(Study study) {
 }  // namespace
 
 std::vector<Study> position_studies(const Scope& scope) {
-  const std::shared_ptr<const Surface> surface = Surface::builtin(1);
+  const std::shared_ptr<const Surface>& surface = scope.planet;
   const auto at = places(scope.full);
   std::vector<Study> studies;
   for (const Height& height : kHeights) studies.push_back(mode_study(height, at.size()));
@@ -180,13 +181,16 @@ std::vector<Study> position_studies(const Scope& scope) {
     const bool is_default = mode.positions == Positions::kExact;
     const auto sums = errors_of(surface, mode.positions, at, is_default ? &seen : nullptr);
     globe::render::RenderSettings ground;
-    ground.clipmap = settings_of(mode.positions, 2);
-    const auto frame = std::make_shared<RepeatedFrame>(scope.context, surface, ground, 64, 36);
+    ground.clipmap = settings_of(mode.positions, 0);  // in so small a picture nothing finer is seen
+    const auto frame = remade<RepeatedFrame>(scope.context, surface, ground, 64, 36);
     for (std::size_t h = 0; h < kHeights.size(); ++h) {
       const Camera camera = camera_at(*surface, at.front(), kHeights[h]);
       const glm::dvec3 sun = sun_over(*surface, camera);
       studies[h].settings.push_back({std::string(globe::clipmap::name_of(mode.positions)), sums[h].figure(),
-                                     [=] { return frame->draw_ms(camera, sun); }, is_default, mode.bytes});
+                                     [=] { return frame->get().draw_ms(camera, sun); }, is_default,
+                                     mode.bytes});
+      // One frame after another is drawn from all heights, and then not needed before the next pass.
+      if (h + 1 == kHeights.size()) studies[h].settings.back().release = release_of(frame);
     }
   }
   studies.push_back(memory_study(studies.front()));

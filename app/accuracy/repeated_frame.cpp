@@ -13,9 +13,7 @@ RepeatedFrame::RepeatedFrame(std::shared_ptr<globe::gl::Context> context,
                              const std::shared_ptr<const globe::planet::Surface>& surface,
                              const globe::render::RenderSettings& settings, int width, int height,
                              const globe::gl::FramebufferFormat& format)
-    : context_(std::move(context)), renderer_(surface, settings), target_(width, height, format) {
-  renderer_.warm_up(target_);
-}
+    : context_(std::move(context)), renderer_(surface, settings), target_(width, height, format) {}
 
 double RepeatedFrame::draw_ms(const globe::render::Camera& camera, const glm::dvec3& sun) {
   if (!last_ || last_->position != camera.position || last_->forward != camera.forward) {

@@ -67,6 +67,7 @@ void add_cost(const CostFigure& cost, ordered_json& object) {
   object["cost_q3"] = cost.q3;
   object["cost_low"] = cost.low;
   object["cost_high"] = cost.high;
+  object["cost_passes"] = cost.passes;
   object["runs"] = cost.runs;
 }
 

@@ -21,7 +21,7 @@ Provenance provenance(const std::string& command, const std::string& suite);
 
 struct Report {
   Provenance provenance;
-  MeasuredStudy pace;  ///< pace_of_machine, measured with the studies
+  MeasuredStudy pace;  ///< pace_of_machine, measured beside the studies
   std::vector<MeasuredStudy> studies;
 };
 

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "app/accuracy/drawing_quality.h"
+#include "app/accuracy/remade.h"
 #include "app/accuracy/repeated_frame.h"
 #include "app/accuracy/study.h"
 #include "globe/gl/program.h"
@@ -95,7 +96,7 @@ ErrorFigure edge_error(int samples) {
 }  // namespace
 
 std::vector<Study> sample_studies(const Scope& scope) {
-  const std::shared_ptr<const globe::planet::Surface> surface = globe::planet::Surface::builtin(1);
+  const std::shared_ptr<const globe::planet::Surface>& surface = scope.planet;
   const globe::render::Camera camera = judged_views(*surface, kPicture)[3].camera;
   const glm::dvec3 sun = sun_over(*surface, camera);
   Study study{"samples.edges",
@@ -112,10 +113,14 @@ std::vector<Study> sample_studies(const Scope& scope) {
     if (samples > most) continue;
     globe::gl::FramebufferFormat format;
     format.samples = samples;
-    const auto frame = std::make_shared<RepeatedFrame>(
-        scope.context, surface, globe::render::RenderSettings{}, kPicture.width, kPicture.height, format);
-    study.settings.push_back({std::to_string(samples), edge_error(samples),
-                              [=] { return frame->draw_ms(camera, sun); }, samples == 1});
+    const auto frame = remade<RepeatedFrame>(scope.context, surface, globe::render::RenderSettings{},
+                                             kPicture.width, kPicture.height, format);
+    study.settings.push_back({std::to_string(samples),
+                              edge_error(samples),
+                              [=] { return frame->get().draw_ms(camera, sun); },
+                              samples == 1,
+                              {},
+                              release_of(frame)});
   }
   return {std::move(study)};
 }

@@ -10,6 +10,7 @@
 
 #include "app/accuracy/air_reference.h"
 #include "app/accuracy/drawing_quality.h"
+#include "app/accuracy/remade.h"
 #include "app/accuracy/repeated_frame.h"
 #include "app/accuracy/study.h"
 #include "globe/render/air.h"
@@ -132,30 +133,34 @@ Study study_of(const std::string& name, const std::string& title, const std::str
 /// Frames with one part of the air's steps changed.
 class Frames {
  public:
-  Frames(std::shared_ptr<globe::gl::Context> context, bool upward)
-      : context_(std::move(context)),
-        surface_(globe::planet::Surface::builtin(1)),
+  Frames(const Scope& scope, bool upward)
+      : context_(scope.context),
+        surface_(scope.planet),
         camera_(judged_views(*surface_, kPicture)[upward ? 4 : 3].camera),
-        detail_(upward ? 16 : 64) {  // upward no ground is in view: no need to keep much of it
+        // Upward no ground is in view, and in 64x36 pixels nothing finer than triangles: no need to keep it.
+        clipmap_(globe::clipmap::Settings::for_detail(upward ? 16 : 64, 0)) {
     if (!upward) return;
     const auto place = globe::geo::geodetic_from_ecef(surface_->ellipsoid(), camera_.position);
     camera_ = render::make_camera(surface_->ellipsoid(), place, 90.0, 40.0, kPicture.fov_y_deg, 16.0 / 9.0);
   }
 
-  std::function<double()> cost(const render::AirSteps& air, int width, int height) const {
+  Setting setting(const std::string& name, const ErrorFigure& error, const render::AirSteps& air, int width,
+                  int height, bool is_default) const {
     render::RenderSettings ground;
-    ground.clipmap = globe::clipmap::Settings::for_detail(detail_);
+    ground.clipmap = clipmap_;
     ground.air = air;
-    const auto frame = std::make_shared<RepeatedFrame>(context_, surface_, ground, width, height);
-    return
-        [frame, camera = camera_, sun = sun_over(*surface_, camera_)] { return frame->draw_ms(camera, sun); };
+    const auto frame = remade<RepeatedFrame>(context_, surface_, ground, width, height);
+    const auto cost = [frame, camera = camera_, sun = sun_over(*surface_, camera_)] {
+      return frame->get().draw_ms(camera, sun);
+    };
+    return {name, error, cost, is_default, {}, release_of(frame)};
   }
 
  private:
   std::shared_ptr<globe::gl::Context> context_;
   std::shared_ptr<const globe::planet::Surface> surface_;
   render::Camera camera_;
-  int detail_;
+  globe::clipmap::Settings clipmap_;
 };
 
 Study step_study(const Frames& frames) {
@@ -171,8 +176,8 @@ Study step_study(const Frames& frames) {
       add(sum, render::sky_light(as_drawn(cases[k].ray), steps), truth[k], cases[k].name);
     render::AirSteps air;
     air.sky = steps;
-    study.settings.push_back({std::to_string(steps) + " steps", sum.figure(),
-                              frames.cost(air, kPicture.width, kPicture.height), steps == kDefault.sky});
+    study.settings.push_back(frames.setting(std::to_string(steps) + " steps", sum.figure(), air,
+                                            kPicture.width, kPicture.height, steps == kDefault.sky));
   }
   return study;
 }
@@ -344,8 +349,9 @@ Study map_study(const Frames& frames) {
     }
     render::AirSteps air;
     air.map = size;
-    study.settings.push_back({std::to_string(size.x) + " x " + std::to_string(size.y), sum.figure(),
-                              frames.cost(air, kPicture.width, kPicture.height), size == kDefault.map});
+    study.settings.push_back(frames.setting(std::to_string(size.x) + " x " + std::to_string(size.y),
+                                            sum.figure(), air, kPicture.width, kPicture.height,
+                                            size == kDefault.map));
   }
   return study;
 }
@@ -364,7 +370,7 @@ Study haze_study(const Frames& frames) {
     render::AirSteps air;
     air.haze = steps;
     study.settings.push_back(
-        {std::to_string(steps) + " steps", sum.figure(), frames.cost(air, 64, 36), steps == kDefault.haze});
+        frames.setting(std::to_string(steps) + " steps", sum.figure(), air, 64, 36, steps == kDefault.haze));
   }
   return study;
 }
@@ -372,7 +378,7 @@ Study haze_study(const Frames& frames) {
 }  // namespace
 
 std::vector<Study> sky_studies(const Scope& scope) {
-  const Frames up(scope.context, true), down(scope.context, false);
+  const Frames up(scope, true), down(scope, false);
   return {step_study(up), map_study(up), haze_study(down), model_study(), column_study()};
 }
 

@@ -11,6 +11,9 @@
 namespace globe::gl {
 class Context;
 }
+namespace globe::planet {
+class Surface;
+}
 
 namespace app::accuracy {
 
@@ -52,6 +55,8 @@ struct Setting {
   std::function<double()> cost;  ///< of one more run, in the study's unit of cost
   bool is_default = false;
   std::string note = {};
+  std::function<void()> release =
+      {};  ///< frees what `cost` made, which makes it anew, unmeasured, when asked
 };
 
 /// A knob, what each of its settings costs and what it errs by.
@@ -71,6 +76,7 @@ struct Study {
 struct Scope {
   bool full = false;  ///< the sizes and levels of a report to be cited, in place of a look
   std::shared_ptr<globe::gl::Context> context = {};  ///< current, and stays so, where something is drawn
+  std::shared_ptr<const globe::planet::Surface> planet = {};  ///< what is then drawn: the built-in one, once
 };
 
 /// Studies that belong together, by the word that --only takes.
@@ -79,7 +85,7 @@ struct Family {
   std::function<std::vector<Study>(const Scope&)> studies;
   std::vector<std::string> knobs = {};           ///< Study::knob of its studies, known without running them
   std::vector<std::string> approximations = {};  ///< what no option turns: how names of its studies begin
-  bool draws = false;                            ///< needs Scope::context
+  bool draws = false;                            ///< needs Scope::context and planet
 };
 
 /// All families, in the order of the report.

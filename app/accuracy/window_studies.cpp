@@ -1,6 +1,7 @@
 #include <cstdint>
 
 #include "app/accuracy/drawing_quality.h"
+#include "app/accuracy/remade.h"
 #include "app/accuracy/repeated_frame.h"
 #include "app/accuracy/study.h"
 
@@ -14,7 +15,7 @@ constexpr PictureSize kPicture;
 }  // namespace
 
 std::vector<Study> window_studies(const Scope& scope) {
-  const std::shared_ptr<const globe::planet::Surface> surface = globe::planet::Surface::builtin(1);
+  const std::shared_ptr<const globe::planet::Surface>& surface = scope.planet;
   const std::vector<JudgedView> views = judged_views(*surface, kPicture);
   Study memory{"windows.memory",
                "How windows lie in textures, against memory",
@@ -33,23 +34,28 @@ std::vector<Study> window_studies(const Scope& scope) {
        {std::pair{"plain", Windows::kPlain}, std::pair{"hexagon", Windows::kHexagon}}) {
     globe::render::RenderSettings ground;
     ground.clipmap.windows = kind;
-    const auto frame =
-        std::make_shared<RepeatedFrame>(scope.context, surface, ground, kPicture.width, kPicture.height);
+    const auto frame = remade<RepeatedFrame>(scope.context, surface, ground, kPicture.width, kPicture.height);
     const auto camera = views[3].camera;
-    frame->draw_ms(camera, sun_over(*surface, camera));
-    const auto bytes = static_cast<double>(frame->stats().gpu_bytes);
+    const glm::dvec3 sun = sun_over(*surface, camera);
+    frame->get().draw_ms(camera, sun);
+    const auto bytes = static_cast<double>(frame->get().stats().gpu_bytes);
     ErrorSum sum;
     for (std::size_t v = 0; v < views.size(); ++v) {
-      frame->draw_ms(views[v].camera, sun_over(*surface, views[v].camera));
-      const std::vector<std::uint8_t> picture = frame->target().read_rgba8();
+      frame->get().draw_ms(views[v].camera, sun_over(*surface, views[v].camera));
+      const std::vector<std::uint8_t> picture = frame->get().target().read_rgba8();
       if (kind == Windows::kPlain) plain.push_back(picture);
       for (std::size_t k = 0; k < picture.size(); ++k)
         sum.add(picture[k] - plain[v][k], [&] { return views[v].name + ", byte " + std::to_string(k); });
     }
+    frame->release();
     const bool is_default = kind == Windows::kPlain;
     memory.settings.push_back({name, sum.figure(), fixed(bytes * 1e-6), is_default});
-    frames.settings.push_back(
-        {name, sum.figure(), [=] { return frame->draw_ms(camera, sun_over(*surface, camera)); }, is_default});
+    frames.settings.push_back({name,
+                               sum.figure(),
+                               [=] { return frame->get().draw_ms(camera, sun); },
+                               is_default,
+                               {},
+                               release_of(frame)});
   }
   return {std::move(memory), std::move(frames)};
 }

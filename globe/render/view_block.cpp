@@ -31,8 +31,8 @@ ViewBlock view_block(const Camera& camera, const geo::Ellipsoid& ellipsoid, bool
   block.clip_from_relative = glm::mat4(clip_from_relative(camera, near_m));
   block.eye_km = glm::vec4(glm::vec3(camera.position * rounding * 1e-3), static_cast<float>(radius * 1e-3));
   block.sun = glm::vec4(glm::vec3(sun), kSunlight);
-  block.rounding = {static_cast<float>(rounding.x), static_cast<float>(rounding.z),
-                    air ? 1.0f : 0.0f, kExposure};
+  block.rounding = {static_cast<float>(rounding.x), static_cast<float>(rounding.z), air ? 1.0f : 0.0f,
+                    kExposure};
   block.right = glm::vec4(glm::vec3(camera.right * camera.tan_x()), 0.0f);
   block.up = glm::vec4(glm::vec3(camera.up * camera.tan_y()), 0.0f);
   block.forward = glm::vec4(glm::vec3(camera.forward), 0.0f);

@@ -5,8 +5,8 @@
 #include "globe/gl/framebuffer.h"
 #include "globe/gl/program.h"
 #include "globe/gl/vertex_array.h"
-#include "globe/render/surface_renderer.h"
 #include "globe/render/projection.h"
+#include "globe/render/surface_renderer.h"
 
 namespace globe::render {
 

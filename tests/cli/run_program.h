@@ -1,5 +1,6 @@
 #pragma once
 
+#include <OpenImageIO/imageio.h>
 #include <fcntl.h>
 #include <stdio_ext.h>
 #include <sys/wait.h>
@@ -67,6 +68,8 @@ inline bool may_stay() {
   // Standard output as a new program has it: empty, and written by whole buffers.
   ::__fpurge(stdout);
   std::setvbuf(stdout, nullptr, _IOFBF, BUFSIZ);
+  OIIO::attribute("threads", 0);  // as many as there are cores, as a new program has them
+  OIIO::attribute("exr_threads", 0);
   const int status = app::run(static_cast<int>(words.size()) + 1, argv.data());
   std::fflush(nullptr);
   ::_exit(status);  // libraries would wait for threads that a child does not have

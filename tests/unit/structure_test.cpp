@@ -47,7 +47,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
   rooms["globe/search"] = {"globe/base", "globe/geo", "globe/htm", "globe/region"};
   rooms["globe/clipmap"] = {"globe/base", "globe/geo", "globe/htm", "globe/planet"};
   rooms["globe/gl"] = {"globe/base"};
-  rooms["globe/scene"] = {"globe/base", "globe/geo"};
+  rooms["globe/scene"] = {"globe/base", "globe/geo", "globe/planet"};
   rooms["globe/render"] = {"globe/base",   "globe/geo",     "globe/htm",
                            "globe/planet", "globe/clipmap", "globe/gl"};
   rooms["globe/effects"] = {"globe/base",    "globe/geo", "globe/htm",    "globe/planet",
@@ -73,8 +73,8 @@ std::vector<std::string> wrong_includes(const fs::path& relative, const std::str
   if (allowed == kMayInclude.end()) return {relative.string() + " lies in no room that DESIGN names"};
   for (const std::string& include : matches(text, R"re((?:^|\n)#include\s*"([^"]+)")re")) {
     const std::string other = room_of(include);
-    const bool shader_of_the_core = other == "shaders" && room.starts_with("globe/");
-    if (other != room && !shader_of_the_core && !allowed->second.contains(other))
+    const bool shader = other == "shaders" && (room.starts_with("globe/") || room == "flat");
+    if (other != room && !shader && !allowed->second.contains(other))
       wrong.push_back(relative.string() + " includes " + include);
   }
   if (!kWithoutGraphics.contains(room)) return wrong;

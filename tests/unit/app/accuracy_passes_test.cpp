@@ -9,6 +9,7 @@
 
 #include "app/accuracy/compare.h"
 #include "app/accuracy/measure.h"
+#include "app/accuracy/remade.h"
 #include "app/accuracy/report.h"
 
 // Costs are spread over the whole run, and their intervals hold what the machine drifts in it.
@@ -48,6 +49,65 @@ TEST(MeasuredCosts, APassHasOneRoundOfAStudyThatTakesLonger) {
   EXPECT_EQ(measured[0].costs[0].runs, 4u);
 }
 
+TEST(MeasuredCosts, WhatAStudyMakesIsMadeUnmeasuredAndReleasedBeforeTheNextStudy) {
+  std::string order;
+  double runs = 0;
+  Study large = study_of("large", {[&] {
+                           order += 'a';
+                           return ++runs;
+                         }});
+  large.settings[0].release = [&] {
+    order += '/';
+    runs = 0;
+  };
+  const auto measured = measure({large, study_of("small", {[&] {
+                                                   order += 'b';
+                                                   return 1.0;
+                                                 }})},
+                                {.passes = 2, .most = 2, .enough = hours(1)});
+  EXPECT_EQ(order, "aaa/bbaaa/bb");
+  EXPECT_EQ(measured[0].costs[0].runs, 4u);
+  EXPECT_EQ(measured[0].costs[0].low, 2.0) << "the first run is not counted";
+  EXPECT_FALSE(measured[0].study.settings[0].cost || measured[0].study.settings[0].release);
+}
+
+TEST(MeasuredCosts, ThePaceIsTakenBeforeEveryStudyOfEveryPass) {
+  std::string order;
+  const auto noted = [&](char letter) {
+    return [&order, letter] {
+      order += letter;
+      return static_cast<double>(order.size());
+    };
+  };
+  const MeasuredBeside measured = measure_beside(study_of("pace", {noted('p')}),
+                                                 {study_of("a", {noted('a')}), study_of("b", {noted('b')})},
+                                                 {.passes = 2, .most = 2, .enough = hours(1)});
+  EXPECT_EQ(order, "paapbbpaapbb");
+  EXPECT_EQ(measured.pace.costs[0].runs, 4u);
+  EXPECT_EQ(measured.pace.costs[0].passes, (std::vector<double>{1.0, 7.0}));
+  EXPECT_EQ(measured.studies[1].costs[0].passes, (std::vector<double>{5.0, 11.0}));
+}
+
+TEST(Remade, IsMadeWhenItIsAskedForAndAgainAfterItsRelease) {
+  struct Large {
+    Large(std::vector<int>* alive, int value) : alive_(alive) { alive_->push_back(value); }
+    ~Large() { alive_->pop_back(); }
+    std::vector<int>* alive_;
+  };
+  std::vector<int> alive;
+  std::vector<int>* const to = &alive;
+  const auto large = remade<Large>(to, 7);
+  EXPECT_TRUE(alive.empty());
+  const Large* first = &large->get();
+  EXPECT_EQ(&large->get(), first);
+  EXPECT_EQ(alive, std::vector<int>{7});
+  const auto release = release_of(large);
+  release();
+  EXPECT_TRUE(alive.empty());
+  large->get();
+  EXPECT_EQ(alive, std::vector<int>{7});
+}
+
 TEST(MeasuredCosts, TheIntervalIsThatOfThePassesMedians) {
   const CostFigure cost = cost_figure({{9.0, 1.0, 1.0},
                                        {2.0, 2.0, 2.0},
@@ -59,6 +119,7 @@ TEST(MeasuredCosts, TheIntervalIsThatOfThePassesMedians) {
   EXPECT_EQ(cost.high, 6.0);
   EXPECT_EQ(cost.median, 3.0);
   EXPECT_EQ(cost.runs, 18u);
+  EXPECT_EQ(cost.passes, (std::vector<double>{1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
 }
 
 /// A machine whose speed wanders by 5 % and forgets where it was in half a minute, with a clock of its own.
@@ -71,16 +132,19 @@ class DriftingMachine {
     constexpr double kStep_s = 0.1, kMemory_s = 30.0;
     const double kept = std::exp(-kStep_s / kMemory_s);
     speed_ = kept * speed_ + 0.05 * std::sqrt(1.0 - kept * kept) * normal_(random_);
-    return 1.0 + speed_ + 0.01 * normal_(random_);
+    return times_ * (1.0 + speed_ + 0.01 * normal_(random_));
   }
   void rest() {
     for (int k = 0; k < 600; ++k) run();
   }
+  /// From now on everything takes so many times as long.
+  void slow_down(double times) { times_ = times; }
 
  private:
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
   double speed_;
+  double times_ = 1.0;
 };
 
 /// Forty studies on a machine, each as a report has it.
@@ -90,7 +154,10 @@ nlohmann::json report_of(DriftingMachine& machine, bool in_passes) {
     studies.push_back(study_of("study " + std::to_string(k), {[&] { return machine.run(); }}));
   Report report{{}, {}, {}};
   if (in_passes) {
-    report.studies = measure(studies, {.passes = 6, .most = 5, .enough = hours(1)});
+    MeasuredBeside measured = measure_beside(study_of("pace", {[&] { return machine.run(); }}), studies,
+                                             {.passes = 8, .most = 5, .enough = hours(1)});
+    report.pace = std::move(measured.pace);
+    report.studies = std::move(measured.studies);
   } else {  // each study by itself, every run a draw of its own
     for (const Study& study : studies)
       report.studies.push_back(measure({study}, {.passes = 30, .most = 1, .enough = hours(1)}).front());
@@ -99,21 +166,34 @@ nlohmann::json report_of(DriftingMachine& machine, bool in_passes) {
   return nlohmann::json::parse(json_of(report));
 }
 
-double overlapping(bool in_passes) {
-  std::size_t overlapping = 0, settings = 0;
+/// In how many of all settings intervals overlap, as they are and by the pace.
+struct Shares {
+  double overlapping = 0, by_pace = 0;
+};
+
+Shares shares(bool in_passes, double second_slower) {
+  double overlapping = 0, by_pace = 0, settings = 0;
   for (unsigned seed = 1; seed <= 25; ++seed) {
     DriftingMachine machine(seed);
     const nlohmann::json first = report_of(machine, in_passes);
+    machine.slow_down(second_slower);
     const Comparison comparison = compare(first, report_of(machine, in_passes));
-    overlapping += comparison.overlapping;
-    settings += comparison.varying;
+    overlapping += static_cast<double>(comparison.overlapping);
+    by_pace += static_cast<double>(comparison.overlapping_by_pace);
+    settings += static_cast<double>(comparison.varying);
   }
-  return static_cast<double>(overlapping) / static_cast<double>(settings);
+  return {overlapping / settings, by_pace / settings};
 }
 
 TEST(MeasuredCosts, IntervalsOfTwoRunsOverlapThoughTheMachineDrifts) {
-  EXPECT_GT(overlapping(true), 0.95);
-  EXPECT_LT(overlapping(false), 0.5) << "the drift is too small to tell";
+  EXPECT_GT(shares(true, 1.0).overlapping, 0.98);
+  EXPECT_LT(shares(false, 1.0).overlapping, 0.5) << "the drift is too small to tell";
+}
+
+TEST(MeasuredCosts, ByThePaceIntervalsOverlapThoughTheMachineIsSlowerInOneRun) {
+  const Shares seen = shares(true, 1.5);
+  EXPECT_GT(seen.by_pace, 0.98);
+  EXPECT_LT(seen.overlapping, 0.5) << "the machine is not slow enough to tell";
 }
 
 /// A report of one study, "s", with settings {name, error, low, high}, and a pace.
@@ -170,12 +250,39 @@ TEST(ComparedReports, TellWhenTheMachineItselfWasSlower) {
       << paces[0];
 }
 
+TEST(ComparedReports, TellByThePaceOfEachPassWhatIsAlikeOnAMachineThatBecameSlower) {
+  // In the second report everything takes twice as long, and a third as long again in its last pass.
+  const auto report = [](double slower, double dearer) {
+    nlohmann::json made = made_up({{"steady", 1.0, 2.0 * slower, 2.2 * slower},
+                                   {"dearer", 1.0, 2.0 * slower * dearer, 2.2 * slower * dearer}},
+                                  5.0 * slower);
+    const double last = slower > 1.0 ? 1.3 : 1.0;
+    made["pace"][0]["cost_passes"] = {5.0 * slower, 5.0 * slower * last};
+    auto& settings = made["studies"][0]["settings"];
+    settings[0]["cost_passes"] = {2.0 * slower, 2.2 * slower * last};
+    settings[1]["cost_passes"] = {2.0 * slower * dearer, 2.2 * slower * dearer * last};
+    return made;
+  };
+  const Comparison comparison = compare(report(1.0, 1.0), report(2.0, 1.5));
+  EXPECT_EQ(comparison.varying, 2u);
+  EXPECT_EQ(comparison.overlapping, 0u);
+  EXPECT_EQ(comparison.paced, 2u);
+  EXPECT_EQ(comparison.overlapping_by_pace, 1u);
+  ASSERT_EQ(comparison.differences.size(), 2u);
+  EXPECT_EQ(comparison.differences[0], "s, dearer, ms: 2 to 2.2 and 6 to 6.6");
+  EXPECT_EQ(comparison.differences[1], "s, steady, ms: 2 to 2.2 and 4 to 4.4, alike by the machine's pace");
+  EXPECT_NE(text_of(comparison).find("by the machine's pace, pass by pass: they overlap in 1 of 2 settings"),
+            std::string::npos)
+      << text_of(comparison);
+}
+
 TEST(ComparedReports, AReportWithoutAPaceIsComparedAllTheSame) {
   nlohmann::json old = made_up({{"same", 1.0, 2.0, 3.0}}, 5.0);
   old.erase("pace");
   const Comparison comparison = compare(old, made_up({{"same", 1.0, 2.0, 3.0}}, 5.0));
   EXPECT_EQ(comparison.overlapping, 1u);
   EXPECT_TRUE(comparison.paces.empty());
+  EXPECT_EQ(comparison.paced, 0u);
 }
 
 }  // namespace

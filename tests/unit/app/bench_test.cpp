@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numeric>
 #include <random>
+#include <vector>
 
 #include "app/flight_stats.h"
 
@@ -31,6 +34,23 @@ TEST(MedianInterval, HoldsTheMedianInNineteenOfTwentyRuns) {
   }
   EXPECT_GT(held, kRuns * 93 / 100);
   EXPECT_LT(held, kRuns * 98 / 100);
+}
+
+TEST(MedianInterval, HoldsTheMedianAtLeastAsOftenAsItSaysForAnyNumberOfValues) {
+  for (std::size_t count = 6; count <= 100; ++count) {
+    std::vector<double> values(count);
+    std::iota(values.begin(), values.end(), 0.0);
+    const Interval interval = median_interval(values);
+    EXPECT_EQ(interval.low + interval.high, static_cast<double>(count - 1));
+    // As many of so many tosses are heads with the probability of Pascal's triangle.
+    double outside = 0, of_next = 0, row = std::exp2(-static_cast<double>(count));
+    for (std::size_t heads = 0; heads <= static_cast<std::size_t>(interval.low) + 1; ++heads) {
+      (heads <= static_cast<std::size_t>(interval.low) ? outside : of_next) += 2.0 * row;
+      row *= static_cast<double>(count - heads) / static_cast<double>(heads + 1);
+    }
+    EXPECT_LE(outside, 0.05) << count;
+    EXPECT_GT(outside + of_next, 0.05) << count << ": could be narrower";
+  }
 }
 
 TEST(RunInterleaved, RunsEveryBenchmarkOnceARound) {

@@ -14,6 +14,7 @@
 #include "app/accuracy/study.h"
 #include "app/commands.h"
 #include "globe/gl/context.h"
+#include "globe/planet/surface.h"
 
 // What trades accuracy against time is in the report of `globe accuracy`: each option of the program, and
 // each approximation in the code that no option turns, which its header tags with "@approximation STUDY".
@@ -114,7 +115,8 @@ TEST(AccuracyKnobs, FamiliesDeclareWhatTheirStudiesAreAbout) {
     const Words tags(family.approximations.begin(), family.approximations.end());
     Words knobs, found;
     app::accuracy::Scope scope;
-    if (family.draws) scope.context = std::make_shared<globe::gl::Context>();
+    if (family.draws)
+      scope = {false, std::make_shared<globe::gl::Context>(), globe::planet::Surface::builtin(1)};
     for (const app::accuracy::Study& study : family.studies(scope)) {
       std::istringstream list(study.knob);
       for (std::string knob; std::getline(list >> std::ws, knob, ',');) knobs.insert(knob);
