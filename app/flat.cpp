@@ -206,12 +206,22 @@ void take_shot(FlatOptions options, const CLI::App& command) {
   stage.check();
 }
 
+constexpr double kFilmed = 200.0;  ///< metres above ground of a film's ends that have no ALT
+
+Point above_ground(Point point) {
+  if (!point.has_alt) point.position.h_m = kFilmed;
+  return point;
+}
+
 /// Where a film ends: --to, or 200 m over the region's middle.
 FlatView end_of(const Stage& stage, const FilmOptions& options) {
   const flat::TangentFrame& frame = stage.region.terrain->frame();
   FlatView view{frame.origin(), {0.0, -5.0}};
-  view.place.h_m = frame.geodetic_from_local({0.0, 0.0, stage.region.terrain->z_at(0.0, 0.0)}).h_m + 200.0;
-  if (!options.to.empty()) view.place = stage.stand_at(parse_point(options.to), options.agl);
+  view.place.h_m = frame.geodetic_from_local({0.0, 0.0, stage.region.terrain->z_at(0.0, 0.0)}).h_m + kFilmed;
+  if (!options.to.empty()) {
+    const Point to = above_ground(parse_point(options.to));
+    view.place = stage.stand_at(to, options.agl || !to.has_alt);
+  }
   if (!options.look.empty()) view.look = parse_look(options.look);
   return view;
 }
@@ -222,7 +232,8 @@ void film(FilmOptions options, const CLI::App& command) {
   if (!options.stats.empty()) globe::refuse_existing(options.stats, options.overwrite);
   if (options.frames < 1 || options.frames > 1'000'000)
     throw globe::UsageError("--frames", "not 1 to 1000000", "give a number in that range");
-  const Start start = start_of(options, scene);
+  Start start = start_of(options, scene);
+  if (start.at && !start.at->has_alt) start = {above_ground(*start.at), true, start.look};
   Stage stage(options, place_of(start));
   const FlatFlight flight(*stage.region.terrain, view_of(stage, start, options), end_of(stage, options));
 
@@ -295,7 +306,8 @@ void add_flat(CLI::App& program) {
   CLI::App* fly_command = command->add_subcommand("fly", "A flight over a region, frame by frame");
   add_flat_options(*fly_command, *fly);
   fly_command->add_option("--from", fly->at, "LAT,LON[,ALT] (default: where all of it is seen)");
-  fly_command->add_option("--to", fly->to, "LAT,LON[,ALT] (default: 200 m over its middle)");
+  fly_command->add_option("--to", fly->to,
+                          "LAT,LON[,ALT] (default: its middle); without ALT 200 m above ground");
   fly_command->add_option("--frames", fly->frames, "number of frames")->capture_default_str();
   fly_command->add_option("--fps", fly->fps, "frames a second of the film")
       ->capture_default_str()

@@ -29,7 +29,7 @@ namespace globe::flat {
 
 /// What is decided once for a renderer.
 struct GeomipmapSettings {
-  double error_px = 1.0;  ///< most that the mesh may be off on screen; @approximation flat.error
+  double error_px = 1.0;  ///< most that the mesh may be off on screen
   Morph morph = Morph::kGpu;
   bool lod = true;      ///< false: level 0 everywhere
   bool culling = true;  ///< false: patches out of view are drawn too

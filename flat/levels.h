@@ -35,7 +35,7 @@ ErrorBound error_bound(double pixels, double fov_y_deg, double aspect, int pictu
 
 /// Pixels that the meshes of a patch's levels are off by on the screen at the most, seen from a place of the
 /// frame: the error of each quarter at its nearest point, from above only as much of it as stands across the
-/// line of sight. @approximation flat.error
+/// line of sight.
 LevelErrors pixels_off(const Terrain& terrain, std::size_t patch, const dvec3& eye, const ErrorBound& bound);
 
 /// Level of every patch as seen from a place of the frame: the coarsest whose error

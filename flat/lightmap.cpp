@@ -28,7 +28,7 @@ void for_each_post(const Terrain& terrain, const Work& work) {
 }
 
 std::uint8_t code(float value) {
-  return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
 }
 
 /// z between four posts, bilinear; only for places within the region, counted in posts.

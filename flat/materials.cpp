@@ -49,7 +49,9 @@ std::vector<double> octaves(int side, int cells, double roughness, std::uint32_t
   return values;
 }
 
-std::uint8_t code(double value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0) + 0.5); }
+std::uint8_t code(double value) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+}
 
 }  // namespace
 

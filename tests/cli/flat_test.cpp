@@ -50,7 +50,7 @@ TEST(Flat, AFlightHasItsFramesAndTheirFigures) {
   const tests::TemporaryFolder folder;
   const Outcome run =
       run_program(flat("fly", {"-o", folder.path() / "f" / "####.png", "--size", "160x90", "--frames", "3",
-                               "--stats", folder.path() / "s.json", "--quiet"}));
+                               "--to", "46.005,7.005", "--stats", folder.path() / "s.json", "--quiet"}));
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "f" / "0002.png"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "f" / "0003.png"));

@@ -215,7 +215,7 @@ TEST_F(Geomipmap, APatchKeepsItsBufferAsLongAsItsShapeStays) {
 
 /// A part of the built-in planet: the globe and the region, seen from one place.
 TEST_F(Geomipmap, ARegionShowsTheGroundThatTheGlobeShowsAtTheSamePixel) {
-  constexpr int kLevel = 14;  // edges of 0.6 km
+  constexpr int kLevel = 11;  // edges of 5 km
   const auto surface = globe::planet::Surface::builtin(1);
   for (const auto& [lat, lon] : {std::pair(46.0, 7.0), std::pair(-16.5, 179.99)}) {
     const TangentFrame frame(surface->ellipsoid(), lat, lon);
@@ -223,7 +223,7 @@ TEST_F(Geomipmap, ARegionShowsTheGroundThatTheGlobeShowsAtTheSamePixel) {
       for (std::size_t k = 0; k < normals.size(); ++k)
         heights[k] = static_cast<float>(surface->drawn_height(surface->height(normals[k], kLevel)));
     };
-    const HeightGrid grid = sample_ground(frame, 100.0, {-64, -64, 129, 129, 1}, ground);
+    const HeightGrid grid = sample_ground(frame, 800.0, {-64, -64, 129, 129, 1}, ground);
     const auto terrain = std::make_shared<const Terrain>(frame, grid, *grid.extent());
     GeomipmapSettings settings = plain();
     settings.error_px = 0.1;
@@ -231,7 +231,7 @@ TEST_F(Geomipmap, ARegionShowsTheGroundThatTheGlobeShowsAtTheSamePixel) {
     render::RenderSettings of_globe;
     of_globe.max_level = kLevel;
     render::GlobeRenderer globe(surface, of_globe);
-    const render::Camera camera = camera_over(*terrain, 0, 0, 2500.0, 40.0, -70.0);
+    const render::Camera camera = camera_over(*terrain, 0, 0, 20'000.0, 40.0, -70.0);
     const Framebuffer frame_a(kWidth, kHeight), frame_b(kWidth, kHeight);
     region.draw(camera, kMorning, true, frame_a);
     globe.draw(camera, kMorning, true, frame_b);

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "globe/render/camera.h"
+#include "tests/unit/flat/mesh.h"
 #include "tests/unit/flat/rough_ground.h"
 
 namespace {
@@ -137,6 +138,39 @@ TEST(Levels, NoErrorOnTheScreenIsAboveWhatTheBoundTakesItFor) {
   ASSERT_GT(patches, 1000);
   RecordProperty("mean_ratio", std::to_string(std::exp((said - seen) / patches)));
   EXPECT_LT(std::exp((said - seen) / patches), 4.0);
+}
+
+/// The whole of it: real-valued levels, sides that adapt and all.
+TEST(Levels, NothingThatIsDrawnIsFartherOffOnTheScreenThanAskedFor) {
+  const auto terrain = rough_terrain(6, 6);
+  std::mt19937 random(31);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  constexpr int kHeight = 720;
+  const int columns = terrain->posts().columns, rows = terrain->posts().rows;
+  double farthest = 0.0;
+  int coarse = 0;
+  for (int round = 0; round < 40; ++round) {
+    const double x = (share(random) - 0.5) * 4000.0, y = (share(random) - 0.5) * 4000.0;
+    const glm::dvec3 eye(x, y, terrain->z_at(x, y) + 5.0 + 3000.0 * share(random) * share(random));
+    const ErrorBound bound = error_bound(8.0, 60.0, 16.0 / 9.0, kHeight);
+    const std::vector<float> levels = patch_levels(*terrain, eye, bound, Morph::kGpu);
+    coarse += static_cast<int>(std::count_if(levels.begin(), levels.end(), [](float l) { return l > 0.5f; }));
+    const std::vector<double> drawn = surface_of(mesh_of(*terrain, levels), columns, rows);
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const glm::dvec3 there(terrain->x_m(column), terrain->y_m(row), terrain->z(column, row));
+        const double z = drawn[static_cast<std::size_t>(2 * row * (2 * columns - 1) + 2 * column)];
+        // The angle between where the post is and where it is drawn, in the widest pixels of the picture.
+        const glm::dvec3 a = glm::normalize(there - eye),
+                         b = glm::normalize(glm::dvec3(there.x, there.y, z) - eye);
+        const double angle = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+        farthest = std::max(farthest, std::tan(std::min(angle, 1.5)) * bound.pixels_at_1m);
+      }
+    }
+  }
+  EXPECT_GT(coarse, 200);
+  RecordProperty("farthest_px", std::to_string(farthest));
+  EXPECT_LE(farthest, 8.0 * 1.05);  // beside a coarser side a little of its error comes along
 }
 
 }  // namespace
