@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "app/bench_fractal.h"
 #include "app/commands.h"
 #include "app/flight_stats.h"
 #include "globe/base/error.h"
@@ -82,6 +83,8 @@ void run(const BenchOptions& options) {
   for (BenchmarkEntry& entry : line_benchmarks()) entries.push_back(std::move(entry));
   for (BenchmarkEntry& entry : convert_benchmarks()) entries.push_back(std::move(entry));
   for (BenchmarkEntry& entry : flight_benchmarks(options.rounds)) entries.push_back(std::move(entry));
+  for (BenchmarkEntry& entry : fractal_benchmarks()) entries.push_back(std::move(entry));
+  for (BenchmarkEntry& entry : flat_benchmarks(options.rounds)) entries.push_back(std::move(entry));
   std::vector<Benchmark> chosen;
   for (const BenchmarkEntry& entry : entries) {
     if (std::regex_search(entry.name, filter)) chosen.push_back(entry.prepare());

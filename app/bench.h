@@ -41,11 +41,13 @@ Interval median_interval(std::vector<double> values);
 std::vector<BenchmarkResult> run_interleaved(std::vector<Benchmark>& benchmarks, int rounds);
 
 /// What `globe bench` knows (app/bench_geometry.cpp, app/bench_cover.cpp, app/bench_lines.cpp,
-/// app/bench_convert.cpp, app/bench_flight.cpp).
+/// app/bench_convert.cpp, app/bench_flight.cpp, app/bench_flat.cpp).
 std::vector<BenchmarkEntry> geometry_benchmarks();
 std::vector<BenchmarkEntry> cover_benchmarks();
 std::vector<BenchmarkEntry> line_benchmarks();
 std::vector<BenchmarkEntry> convert_benchmarks();
 std::vector<BenchmarkEntry> flight_benchmarks(int rounds);
+/// Wagner's Table 1: his minimum and full scenes, without morphing, with it on the processor and on the GPU.
+std::vector<BenchmarkEntry> flat_benchmarks(int rounds);
 
 }  // namespace app

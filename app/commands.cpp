@@ -15,6 +15,7 @@ void add_commands(CLI::App& program, int& exit_status) {
   add_cover(program);
   add_explain(program);
   add_export(program);
+  add_flat(program);
   add_fly(program);
   add_info(program, exit_status);
   add_inset(program);

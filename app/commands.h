@@ -30,6 +30,7 @@ void add_cover(CLI::App& program);
 void add_explain(CLI::App& program);
 void add_export(CLI::App& program);
 void add_find(CLI::App& program);
+void add_flat(CLI::App& program);
 void add_fly(CLI::App& program);
 void add_pick(CLI::App& program, int& exit_status);
 void add_profile(CLI::App& program);

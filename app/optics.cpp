@@ -79,13 +79,13 @@ Lens::Lens(const Optics& optics, int width, int height, int samples,
   target_ = globe::gl::Framebuffer(width, height, format);
 }
 
-render::FrameStats Lens::draw(render::GlobeRenderer& renderer, const render::Camera& camera,
+render::FrameStats Lens::draw(render::SurfaceRenderer& renderer, const render::Camera& camera,
                               const glm::dvec3& sun, bool wait, double upload_ms) {
   return wide_ ? wide_->draw(renderer, camera, sun, wait, target_, upload_ms)
                : renderer.draw(camera, sun, wait, target_, upload_ms);
 }
 
-void Lens::warm_up(render::GlobeRenderer& renderer) const {
+void Lens::warm_up(render::SurfaceRenderer& renderer) const {
   if (wide_) {
     wide_->warm_up(renderer);
   } else {

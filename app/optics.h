@@ -47,10 +47,10 @@ class Lens {
   Lens(const Optics& optics, int width, int height, int samples, const std::optional<glm::vec3>& outside);
 
   /// Draws into target().
-  globe::render::FrameStats draw(globe::render::GlobeRenderer& renderer, const globe::render::Camera& camera,
-                                 const glm::dvec3& sun, bool wait,
-                                 double upload_ms = globe::render::GlobeRenderer::kUploadTime);
-  void warm_up(globe::render::GlobeRenderer& renderer) const;
+  globe::render::FrameStats draw(globe::render::SurfaceRenderer& renderer,
+                                 const globe::render::Camera& camera, const glm::dvec3& sun, bool wait,
+                                 double upload_ms = globe::render::SurfaceRenderer::kUploadTime);
+  void warm_up(globe::render::SurfaceRenderer& renderer) const;
   const globe::gl::Framebuffer& target() const { return target_; }
 
  private:

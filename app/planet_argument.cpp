@@ -36,12 +36,13 @@ std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& pla
 std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& planet,
                                                           std::size_t dataset_cache,
                                                           std::size_t surface_cache, double exaggeration,
-                                                          globe::planet::SeaFloor sea_floor) {
+                                                          globe::planet::SeaFloor sea_floor,
+                                                          const globe::planet::LayerChoice& layers) {
   using globe::planet::Dataset;
   using globe::planet::Surface;
   if (const auto seed = procedural_seed(planet))
     return Surface::builtin(*seed, surface_cache, exaggeration, sea_floor);
-  return Surface::from_dataset(std::make_shared<const Dataset>(Dataset::open(planet, dataset_cache)),
+  return Surface::from_dataset(std::make_shared<const Dataset>(Dataset::open(planet, dataset_cache, layers)),
                                surface_cache, exaggeration, sea_floor);
 }
 

@@ -19,10 +19,12 @@ inline constexpr std::size_t kDatasetCache = std::size_t{256} << 20;
 std::shared_ptr<const globe::planet::Surface> open_planet(const std::string& planet);
 
 /// The same with so many bytes of decoded data, and of tiles made of them, kept, and drawn so many times as
-/// high, its sea floor bare for a sea that is drawn over it or not.
+/// high, its sea floor bare for a sea that is drawn over it or not, of some of its layers (the built-in
+/// planet has none).
 std::shared_ptr<const globe::planet::Surface> open_planet(
     const std::string& planet, std::size_t dataset_cache, std::size_t surface_cache,
-    double exaggeration = 1.0, globe::planet::SeaFloor sea_floor = globe::planet::SeaFloor::kFlooded);
+    double exaggeration = 1.0, globe::planet::SeaFloor sea_floor = globe::planet::SeaFloor::kFlooded,
+    const globe::planet::LayerChoice& layers = {});
 
 /// Throws globe::Error when the planet was made of a colour map alone.
 void require_heights(const globe::planet::Surface& surface, const std::string& planet);

@@ -10,10 +10,11 @@ namespace {
 
 namespace scene = globe::scene;
 
-/// Takes what a scene says for an option that was not given.
+/// Takes what a scene says for an option that was not given; not of commands without it.
 template <class Value, class Said>
 void take(const CLI::App& command, const char* option, Value& value, const std::optional<Said>& said) {
-  if (said && command.get_option(option)->count() == 0) value = *said;
+  const CLI::Option* found = command.get_option_no_throw(option);
+  if (said && found != nullptr && found->count() == 0) value = *said;
 }
 
 std::optional<scene::Scene> scene_of(const std::string& word) {
@@ -39,6 +40,7 @@ std::optional<scene::Scene> take_scene(const CLI::App& command, CameraOptions& o
   take(command, "--exaggeration", options.exaggeration, picture.exaggeration);
   if (picture.morph) take(command, "--morph", options.morph, std::optional(*picture.morph ? "on" : "off"));
   if (options.time.empty()) options.sun = scene->sun;
+  options.layers = scene->layers;
   return scene;
 }
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/image_file.h"
+#include "app/save_picture.h"
 #include "app/scene_argument.h"
 #include "app/standing_camera.h"
 #include "app/view_options.h"
@@ -20,34 +20,6 @@ struct ShotOptions {
   ViewOptions view;
   StandOptions stand;
 };
-
-void write_depth(const ViewOptions& options, const Size& size, const std::vector<float>& depth,
-                 double near_m) {
-  std::vector<float> metres(depth.size());
-  std::transform(depth.begin(), depth.end(), metres.begin(), [&](float d) {
-    return d > 0.0f ? static_cast<float>(near_m / static_cast<double>(d)) : 0.0f;
-  });
-  if (options.output.size() > 4 && options.output.ends_with(".exr")) {
-    write_image(options.output, size.width, size.height, {"Z"}, metres, options.overwrite);
-    return;
-  }
-  // A picture of depth: nearest white, farthest black, by the logarithm of the distance.
-  float nearest = 3e38f;
-  float farthest = 0.0f;
-  for (const float z : metres) {
-    if (z <= 0.0f) continue;
-    nearest = std::min(nearest, z);
-    farthest = std::max(farthest, z);
-  }
-  const float span = std::max(std::log(std::max(farthest, 1e-6f) / std::max(nearest, 1e-6f)), 1e-6f);
-  std::vector<std::uint8_t> rgba(metres.size() * 4, 255);
-  for (std::size_t k = 0; k < metres.size(); ++k) {
-    const float t = metres[k] > 0.0f ? 1.0f - std::log(metres[k] / nearest) / span : 0.0f;
-    std::fill_n(rgba.begin() + static_cast<std::ptrdiff_t>(4 * k), 3,
-                static_cast<std::uint8_t>(std::clamp(t, 0.0f, 1.0f) * 255.0f));
-  }
-  write_image(options.output, {size.width, size.height, rgba}, options.overwrite);
-}
 
 void run(ShotOptions options, const CLI::App& command) {
   namespace render = globe::render;
@@ -77,16 +49,8 @@ void run(ShotOptions options, const CLI::App& command) {
                     static_cast<double>(size.width) / size.height);
   renderer.set_instant(sun.instant(options.stand.moment_s));
   lens.draw(renderer, camera, sun.at(options.stand.moment_s), true);
-  if (view.show == "depth") {
-    write_depth(view, size, target.read_depth(),
-                render::near_distance(surface->ellipsoid(), renderer.nearest_drawn(camera.position)));
-  } else if (view.output.ends_with(".exr")) {
-    const std::vector<float> rgba = target.read_rgba_float();
-    write_image(view.output, size.width, size.height, {"R", "G", "B", "A"}, rgba, view.overwrite);
-  } else {
-    const std::vector<std::uint8_t> rgba = target.read_rgba8();
-    write_image(view.output, {size.width, size.height, rgba}, view.overwrite);
-  }
+  save_picture(view, target,
+               render::near_distance(surface->ellipsoid(), renderer.nearest_drawn(camera.position)));
   if (!context.errors().empty())
     throw globe::Error("OpenGL", context.errors().front(), "try --device software");
 }

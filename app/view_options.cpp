@@ -42,11 +42,7 @@ glm::vec3 parse_color(const std::string& text) {
 
 }  // namespace
 
-void add_camera_options(CLI::App& command, CameraOptions& options) {
-  command
-      .add_option("PLANET", options.planet,
-                  "folder made by globe convert, procedural[:SEED], or a scene, SCENE.toml")
-      ->required();
+void add_eye_options(CLI::App& command, CameraOptions& options) {
   command.add_flag("--agl", options.agl, "altitudes count from the ground");
   command.add_option("--look", options.look, "HEADING,PITCH in degrees; -90 down, 0 level");
   command.add_option("--size", options.size,
@@ -54,14 +50,22 @@ void add_camera_options(CLI::App& command, CameraOptions& options) {
   add_optics_options(command, options.optics);
   command.add_option("--time", options.time,
                      "UTC date and time of the sun, ISO 8601 (default: 10:00 local solar time, 21 March)");
+  command.add_option("--exaggeration", options.exaggeration, "draw heights so many times as high")
+      ->capture_default_str()
+      ->check(in_range(0.0, 100.0));
+}
+
+void add_camera_options(CLI::App& command, CameraOptions& options) {
+  command
+      .add_option("PLANET", options.planet,
+                  "folder made by globe convert, procedural[:SEED], or a scene, SCENE.toml")
+      ->required();
+  add_eye_options(command, options);
   command.add_option("--detail", options.detail, "side of the hexagons in cells, 16 to 1024")
       ->capture_default_str();
   command.add_option("--morph", options.morph, "off: levels change at once, to see what morphing is for")
       ->capture_default_str()
       ->check(CLI::IsMember({"on", "off"}));
-  command.add_option("--exaggeration", options.exaggeration, "draw heights so many times as high")
-      ->capture_default_str()
-      ->check(in_range(0.0, 100.0));
 }
 
 globe::clipmap::Settings clipmap_settings(const CameraOptions& options) {
@@ -70,12 +74,22 @@ globe::clipmap::Settings clipmap_settings(const CameraOptions& options) {
   return settings;
 }
 
-void add_drawing_options(CLI::App& command, ViewOptions& options) {
-  add_camera_options(command, options);
+void add_picture_options(CLI::App& command, ViewOptions& options) {
   command.add_option("--samples", options.samples, "samples a pixel")
       ->capture_default_str()
       ->check(CLI::IsMember({1, 4}));
   command.add_option("--background", options.background, "RRGGBB: nothing but ground before this colour");
+  command.add_flag("--quiet", options.quiet, "warnings and errors only");
+  command.add_option("--device", options.device, "auto, software, or the number of an EGL device")
+      ->capture_default_str();
+  command.add_option("--memory", options.memory_mb, "MB of decoded maps and of ground made of them to keep")
+      ->capture_default_str()
+      ->check(CLI::Range(64, 1 << 20));
+}
+
+void add_drawing_options(CLI::App& command, ViewOptions& options) {
+  add_camera_options(command, options);
+  add_picture_options(command, options);
   command
       .add_option("--positions", options.positions,
                   "places of vertices: exact; or, to see what accuracy costs, quadratic, chord or float32")
@@ -85,16 +99,9 @@ void add_drawing_options(CLI::App& command, ViewOptions& options) {
           "--window", options.window,
           "how vertices lie in GPU memory: plain squares; or hexagon, 6 % less in all, the same picture")
       ->capture_default_str();
-  command.add_flag("--quiet", options.quiet, "warnings and errors only");
-  command.add_option("--device", options.device, "auto, software, or the number of an EGL device")
-      ->capture_default_str();
-  command.add_option("--memory", options.memory_mb, "MB of decoded maps and of ground made of them to keep")
-      ->capture_default_str()
-      ->check(CLI::Range(64, 1 << 20));
 }
 
-void add_view_options(CLI::App& command, ViewOptions& options) {
-  add_drawing_options(command, options);
+void add_output_options(CLI::App& command, ViewOptions& options) {
   command.add_option("-o,--output", options.output, "file to write")->required();
   command.add_flag("--wireframe", options.wireframe, "draw the triangles");
   command.add_option("--show", options.show, "levels, patches, normals or depth")
@@ -102,14 +109,20 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
   command.add_flag("--overwrite", options.overwrite, "replace existing output");
 }
 
+void add_view_options(CLI::App& command, ViewOptions& options) {
+  add_drawing_options(command, options);
+  add_output_options(command, options);
+}
+
 std::shared_ptr<const globe::planet::Surface> open_planet(const ViewOptions& options) {
   const std::size_t bytes = static_cast<std::size_t>(options.memory_mb) << 20;
-  return open_planet(options.planet, bytes / 5 * 2, bytes / 5 * 3, options.exaggeration, options.sea_floor);
+  return open_planet(options.planet, bytes / 5 * 2, bytes / 5 * 3, options.exaggeration, options.sea_floor,
+                     options.layers);
 }
 
 std::shared_ptr<const globe::planet::Surface> open_planet(const CameraOptions& options) {
   return open_planet(options.planet, kDatasetCache, globe::planet::Surface::kDefaultCache,
-                     options.exaggeration);
+                     options.exaggeration, globe::planet::SeaFloor::kFlooded, options.layers);
 }
 
 Look parse_look(const std::string& text) {
@@ -157,11 +170,21 @@ globe::render::RenderSettings render_settings(const ViewOptions& options) {
   }
   settings.clipmap.windows = *windows;
   settings.wireframe = options.wireframe;
-  if (options.show == "levels") settings.show = globe::render::Show::kLevels;
-  if (options.show == "patches") settings.show = globe::render::Show::kPatches;
-  if (options.show == "normals") settings.show = globe::render::Show::kNormals;
-  if (!options.background.empty()) settings.background = parse_color(options.background);
+  settings.show = show_of(options);
+  settings.background = background_of(options);
   return settings;
+}
+
+globe::render::Show show_of(const ViewOptions& options) {
+  if (options.show == "levels") return globe::render::Show::kLevels;
+  if (options.show == "patches") return globe::render::Show::kPatches;
+  if (options.show == "normals") return globe::render::Show::kNormals;
+  return globe::render::Show::kGround;
+}
+
+std::optional<glm::vec3> background_of(const ViewOptions& options) {
+  if (options.background.empty()) return std::nullopt;
+  return parse_color(options.background);
 }
 
 Sunlight::Sunlight(const globe::geo::UtcDate& date, double speed)
@@ -179,6 +202,10 @@ globe::render::Instant Sunlight::instant(double seconds) const {
 
 Sunlight sun_for(const CameraOptions& options, const globe::planet::Surface& surface,
                  const globe::geo::Geodetic& target) {
+  return sun_for(options, surface.info().body, target);
+}
+
+Sunlight sun_for(const CameraOptions& options, const std::string& body, const globe::geo::Geodetic& target) {
   namespace geo = globe::geo;
   const globe::scene::Sun& sun = options.sun;
   if (options.time.empty() && sun.overhead)
@@ -189,7 +216,6 @@ Sunlight sun_for(const CameraOptions& options, const globe::planet::Surface& sur
   }
   const std::string time = options.time.empty() ? sun.time.value_or("") : options.time;
   if (time.empty()) return Sunlight(geo::morning_sun(target.lon_deg));
-  const std::string& body = surface.info().body;
   if (body == "moon" || body == "mars") {
     throw UsageError("--time " + time,
                      "the sun's place is computed for the Earth only, this planet is the " + body,

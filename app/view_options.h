@@ -25,9 +25,13 @@ struct CameraOptions {
   int detail = 64;
   std::string morph = "on";
   double exaggeration = 1.0;
+  globe::planet::LayerChoice layers;  ///< a scene's
   bool agl = false;
 };
 
+/// Where the camera looks, how, and by what light: what any ground is seen with.
+void add_eye_options(CLI::App& command, CameraOptions& options);
+/// The same and the planet, and how finely it is drawn.
 void add_camera_options(CLI::App& command, CameraOptions& options);
 
 /// Detail and morphing. Throws UsageError.
@@ -50,6 +54,10 @@ struct ViewOptions : CameraOptions {
   globe::planet::SeaFloor sea_floor = globe::planet::SeaFloor::kFlooded;
 };
 
+/// What becomes of pixels, of any ground; the device and the memory.
+void add_picture_options(CLI::App& command, ViewOptions& options);
+/// The file and what is shown in it.
+void add_output_options(CLI::App& command, ViewOptions& options);
 /// What frames are drawn with, whatever becomes of them.
 void add_drawing_options(CLI::App& command, ViewOptions& options);
 /// The same and what `shot` and `fly` need for files and looks.
@@ -80,6 +88,10 @@ Size size_of(const CameraOptions& options, const Optics& optics);
 /// Settings of a renderer from the options. Throws UsageError.
 globe::render::RenderSettings render_settings(const ViewOptions& options);
 
+globe::render::Show show_of(const ViewOptions& options);
+/// Throws UsageError.
+std::optional<glm::vec3> background_of(const ViewOptions& options);
+
 /// Where the sun stands, from second to second of a flight.
 class Sunlight {
  public:
@@ -101,5 +113,7 @@ class Sunlight {
 /// a time on a planet where it says nothing.
 Sunlight sun_for(const CameraOptions& options, const globe::planet::Surface& surface,
                  const globe::geo::Geodetic& target);
+/// @param body  as PlanetInfo::body has it
+Sunlight sun_for(const CameraOptions& options, const std::string& body, const globe::geo::Geodetic& target);
 
 }  // namespace app

@@ -1,11 +1,13 @@
 #include "app/accuracy/scattering_cases.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <random>
 
 namespace app::accuracy {
 namespace {
@@ -71,6 +73,44 @@ std::vector<ScatteringCase> scattering_cases() {
   cases.push_back(case_of(400.0, 30.0, At::kGround, 300.0, 90.0));
   cases.push_back(case_of(400.0, 12.0, At::kGround, 1500.0, 180.0));
   cases.push_back(case_of(2000.0, 20.0, At::kGround, 2000.0, 180.0));
+  return cases;
+}
+
+std::vector<ScatteringCase> drawn_scattering_cases() {
+  std::mt19937_64 random(20261128);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * std::generate_canonical<double, 53>(random);
+  };
+  const auto log_between = [&](double low, double high) {
+    return std::exp(between(std::log(low), std::log(high)));
+  };
+  constexpr std::size_t kCases = 50;
+  std::vector<ScatteringCase> cases;
+  while (cases.size() < kCases) {
+    const bool in_air = cases.size() % 2 == 0;
+    const double eye_km = in_air ? log_between(0.002, 50.0) : log_between(150.0, 36000.0);
+    const dvec3 eye(0.0, 0.0, kModel.ground_km + eye_km);
+    double elevation;
+    if (in_air) {
+      elevation = cases.size() % 4 == 0 ? between(0.2, 6.0) : between(6.0, 90.0);
+    } else {
+      // From the limb's upper end down to ground seen at a slant.
+      const double lowest_km = cases.size() % 4 == 1 ? between(2.0, 60.0) : -log_between(1.0, 1000.0);
+      elevation = -std::acos((kModel.ground_km + lowest_km) / eye.z) * 180.0 / std::numbers::pi;
+    }
+    const dvec3 look = direction(elevation, 0.0);
+    const ScatteringRay ray = scattering_ray(kModel, eye, look, look);
+    const double lowest = std::clamp(-glm::dot(eye, look), ray.from, ray.to);
+    const dvec3 up = glm::normalize(eye + look * lowest);
+    const dvec3 east(0, 1, 0), north = glm::cross(up, east);
+    const double sun_deg = cases.size() % 3 == 0 ? between(8.0, 90.0) : between(-8.0, 8.0);
+    const dvec3 level = direction(sun_deg, between(0.0, 180.0));
+    char name[120];
+    std::snprintf(name, sizeof name, "drawn look %zu: eye at %.3g km, look %.3g deg, sun %.3g deg high there",
+                  cases.size(), eye_km, elevation, sun_deg);
+    cases.push_back(
+        {name, scattering_ray(kModel, eye, look, north * level.x + east * level.y + up * level.z)});
+  }
   return cases;
 }
 

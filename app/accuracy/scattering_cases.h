@@ -15,7 +15,14 @@ struct ScatteringCase {
 };
 std::vector<ScatteringCase> scattering_cases();
 
-/// Their light as globe_scattering_reference computed it (tests/bench/air/scattering_reference.cpp).
+/// As many looks again, drawn by lot and never used to choose how the model is computed: from the ground to
+/// high orbit, at the sky, the limb and the ground, the sun from 8 degrees below the level of what is looked
+/// at to overhead, half of them within 8 degrees of it.
+std::vector<ScatteringCase> drawn_scattering_cases();
+
+/// The light of the former and the latter, as globe_scattering_reference computed it
+/// (tests/bench/air/scattering_reference.cpp).
 std::vector<ScatteredLight> scattering_values();
+std::vector<ScatteredLight> drawn_scattering_values();
 
 }  // namespace app::accuracy

@@ -84,6 +84,19 @@ void copy_samples(const std::uint8_t* from, std::size_t count, float* to) {
   std::transform(from, from + count, to, [](std::uint8_t byte) { return static_cast<float>(byte) / 255.0F; });
 }
 
+bool is_left_out(const LayerChoice& layers, const std::string& name) {
+  return name == "color" ? !layers.colors : !layers.heights;
+}
+
+void leave_out(const LayerChoice& choice, PlanetFile& file) {
+  const auto layer = [&](const LayerInfo& info) { return is_left_out(choice, info.name); };
+  const auto inset = [&](const InsetInfo& info) { return !choice.insets || is_left_out(choice, info.layer); };
+  std::erase_if(file.layers, [&](const StoredLayer& stored) { return layer(stored.info); });
+  std::erase_if(file.info.layers, layer);
+  std::erase_if(file.insets, [&](const StoredInset& stored) { return inset(stored.info); });
+  std::erase_if(file.info.insets, inset);
+}
+
 }  // namespace
 
 struct Dataset::State {
@@ -221,8 +234,10 @@ void Dataset::State::open_inset(const std::filesystem::path& folder, const Store
   insets.push_back(std::move(samples));
 }
 
-Dataset Dataset::open(const std::filesystem::path& folder, std::size_t cache_bytes) {
+Dataset Dataset::open(const std::filesystem::path& folder, std::size_t cache_bytes,
+                      const LayerChoice& layers) {
   PlanetFile file = read_planet_file(folder);
+  leave_out(layers, file);
   auto state = std::make_shared<State>();
   state->info = std::move(file.info);
   state->cache = make_cache(cache_bytes);

@@ -99,6 +99,13 @@ struct PlanetInfo {
   friend bool operator==(const PlanetInfo&, const PlanetInfo&) = default;
 };
 
+/// Which of a planet's layers are opened; those left out are as good as not there.
+struct LayerChoice {
+  bool heights = true;  ///< "height" and what comes of it
+  bool colors = true;
+  bool insets = true;  ///< of the layers above
+};
+
 /// A planet on disk: a folder with planet.json and, per layer and diamond, one tiled TIFF. Samples come
 /// through a cache of decoded tiles, so a planet may be larger than memory. Copies share the cache; reading
 /// is thread-safe.
@@ -107,7 +114,8 @@ class Dataset {
   /// Opens the planet and checks that every file is whole (size, header, levels); `cache_bytes` caps the
   /// decoded tiles kept. Throws globe::Error with one line when there is no planet.json, it is broken or of a
   /// newer format, or a file is missing, truncated or not what planet.json says.
-  static Dataset open(const std::filesystem::path& folder, std::size_t cache_bytes);
+  static Dataset open(const std::filesystem::path& folder, std::size_t cache_bytes,
+                      const LayerChoice& layers = {});
 
   const PlanetInfo& info() const;
 

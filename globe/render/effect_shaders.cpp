@@ -40,13 +40,11 @@ std::string with_name(std::string call, const std::string& name) {
 
 }  // namespace
 
-EffectShaders::EffectShaders(std::span<const NamedEffect> effects, gl::ShaderReader reader)
-    : reader_(std::move(reader)) {
-  std::vector<EffectShader> shaders;
+EffectShaders::EffectShaders(std::span<const NamedEffect> effects) {
   Bindings next{kFirstBlock, kFirstUnit};
-  std::string includes;
   for (const NamedEffect& named : effects) {
-    const EffectShader& shader = shaders.emplace_back(named.effect->shader());
+    const EffectShader& shader = shaders_.emplace_back(named.effect->shader());
+    names_.push_back(named.name);
     bindings_.push_back(next);
     const std::string name = in_capitals(named.name);
     defines_.push_back(name + "_BLOCK " + std::to_string(next.block));
@@ -55,31 +53,37 @@ EffectShaders::EffectShaders(std::span<const NamedEffect> effects, gl::ShaderRea
     replaced_.insert(replaced_.end(), shader.replaced.begin(), shader.replaced.end());
     ++next.block;
     next.unit += static_cast<unsigned>(shader.textures);
-    if (!shader.file.empty()) includes += "#include \"" + shader.file + "\"\n";
+    if (!shader.file.empty()) parts_ |= 1 << (shaders_.size() - 1);
     may_keep_light_ = may_keep_light_ || named.effect->stage() != Stage::kNone;
   }
   if (may_keep_light_) defines_.emplace_back("KEEP_LIGHT");
-  if (includes.empty()) return;
-  defines_.emplace_back("EFFECTS");
-  text_ = "#include \"lib/place.glsl\"\n#include \"lib/active_effects.glsl\"\n" + includes;
-  for (const Part& part : kParts) {
-    text_ += std::string(part.head) + "\n";
-    for (std::size_t k = 0; k < effects.size(); ++k) {
-      if (shaders[k].*part.has)
-        text_ += "  if ((active_effects & " + std::to_string(1 << k) + ") != 0) " +
-                 with_name(part.call, effects[k].name) + "\n";
-    }
-    text_ += std::string(part.last) + "}\n";
-  }
+  if (has_parts()) defines_.emplace_back("EFFECTS");
 }
 
-gl::ShaderReader EffectShaders::reader() const {
-  return [text = text_, replaced = replaced_,
-          reader = reader_](const std::string& name) -> std::optional<std::string> {
+std::string EffectShaders::text(std::optional<int> set) const {
+  std::string text = "#include \"lib/place.glsl\"\n#include \"lib/active_effects.glsl\"\n";
+  const auto is_left_out = [&](std::size_t k) { return set && (*set >> k & 1) == 0; };
+  for (std::size_t k = 0; k < shaders_.size(); ++k) {
+    if (!shaders_[k].file.empty() && !is_left_out(k)) text += "#include \"" + shaders_[k].file + "\"\n";
+  }
+  for (const Part& part : kParts) {
+    text += std::string(part.head) + "\n";
+    for (std::size_t k = 0; k < shaders_.size(); ++k) {
+      if (!(shaders_[k].*part.has) || is_left_out(k)) continue;
+      text += set ? "  " : "  if ((active_effects & " + std::to_string(1 << k) + ") != 0) ";
+      text += with_name(part.call, names_[k]) + "\n";
+    }
+    text += std::string(part.last) + "}\n";
+  }
+  return text;
+}
+
+gl::ShaderReader EffectShaders::reader(std::optional<int> set) const {
+  return [text = text(set), replaced = replaced_](const std::string& name) -> std::optional<std::string> {
     if (name == kFile) return text;
     const auto other =
         std::find_if(replaced.begin(), replaced.end(), [&](const auto& pair) { return pair.first == name; });
-    return reader(other == replaced.end() ? name : other->second);
+    return gl::read_shader(other == replaced.end() ? name : other->second);
   };
 }
 

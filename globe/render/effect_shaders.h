@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,38 +26,45 @@ struct NamedEffect {
 ///     vec3 added_by_effects(vec3 light, Place place)
 ///     vec3 through_effects(vec3 light, Place place)
 ///     vec3 sky_through_effects(vec3 light, vec3 direction)
-/// Effects that are not active in a view are passed over by a bit of the uniform `active_effects`.
+/// A program for any set of active effects passes over the others by a bit of the uniform `active_effects`;
+/// one for a single set has nothing of them (EffectProgram).
 class EffectShaders {
  public:
   EffectShaders() = default;
-  explicit EffectShaders(std::span<const NamedEffect> effects, gl::ShaderReader reader = gl::read_shader);
+  explicit EffectShaders(std::span<const NamedEffect> effects);
 
   /// Location of `uniform int active_effects` (shaders/lib/active_effects.glsl) in programs of the ground and
-  /// the sky: one bit an effect, and kKeepLight.
+  /// the sky that serve any set: one bit an effect, and kKeepLight.
   static constexpr int kActiveEffects = 10;
   static constexpr int kKeepLight = 1 << 30;
 
   /// Any effect adds to the programs of others.
-  bool has_parts() const { return !text_.empty(); }
+  bool has_parts() const { return parts_ != 0; }
   /// Any has a pass of its own: where one is active the picture is drawn as light and toned at the end.
   bool may_keep_light() const { return may_keep_light_; }
   /// Programs of the ground and the sky have the uniform.
   bool is_used() const { return has_parts() || may_keep_light_; }
 
-  /// Reads shaders/ with "effects.glsl" and what is replaced.
-  gl::ShaderReader reader() const;
+  /// Which of a view's active effects programs of the ground and the sky differ by.
+  int set_of(int active) const { return active & (parts_ | (may_keep_light_ ? kKeepLight : 0)); }
+
+  /// Reads shaders/ with "effects.glsl", for any set or for one, and what is replaced.
+  gl::ShaderReader reader(std::optional<int> set = std::nullopt) const;
   /// For every program that draws surfaces or the sky.
   const std::vector<std::string>& defines() const { return defines_; }
   /// Of the effect of that place in the list.
   const Bindings& bindings(std::size_t effect) const { return bindings_[effect]; }
 
  private:
-  std::string text_;
+  std::string text(std::optional<int> set) const;
+
+  std::vector<std::string> names_;
+  std::vector<EffectShader> shaders_;
+  int parts_ = 0;  ///< effects with a part in programs of others: one bit each
   bool may_keep_light_ = false;
   std::vector<std::string> defines_;
   std::vector<std::pair<std::string, std::string>> replaced_;
   std::vector<Bindings> bindings_;
-  gl::ShaderReader reader_ = gl::read_shader;
 };
 
 }  // namespace globe::render

@@ -12,6 +12,7 @@
 
 #include "globe/clipmap/ground_below.h"
 #include "globe/render/ground_program.h"
+#include "globe/render/ground_state.h"
 #include "globe/render/tone.h"
 #include "globe/render/view_block.h"
 
@@ -39,7 +40,7 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
       loader_(settings.clipmap, surface_, settings.max_level, settings.load_ahead) {
   const bool tinted = settings_.show != Show::kGround || settings_.wireframe;
   for (std::size_t k = 0; k < kLooks.size(); ++k)
-    ground_[k] = ground_program(kLooks[k], textures(), tinted, settings_.air.haze, effect_shaders_);
+    ground_[k] = {ground_sources(kLooks[k], textures(), tinted, settings_.air.haze), effect_shaders_};
   if (!settings_.background) sky_.emplace(has_air(surface_->info()), settings_.air, effect_shaders_);
   if (effect_shaders_.may_keep_light()) light_.emplace();
   for (const NamedEffect& named : effects_) {
@@ -74,15 +75,17 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
         {look, look.kind == Kind::kRim ? 1 : 0, 0, false, {list.batches.front().instances.front()}});
   }
   list.batches = std::move(batches);
+  // Of the sets of effects: those of such a view, none, and whatever a frame in real time meets.
+  const ViewBlock view = view_block(camera, *surface_, sun_, near_distance(surface_->ellipsoid(), above_m_));
+  const int seen = active_;
   target.bind();
-  draw_ground(list);
-}
-
-FrameStats GlobeRenderer::draw(const Camera& camera, const glm::dvec3& sun, bool wait,
-                               const gl::Framebuffer& target, double upload_ms) {
-  begin_frame(camera.position, sun, wait, upload_ms);
-  draw_view(camera, target);
-  return stats_;
+  for (const auto& [active, serving] :
+       {std::pair(seen, Serving::kItsSet), std::pair(0, Serving::kItsSet), std::pair(0, Serving::kAny)}) {
+    active_ = active;
+    serving_ = serving;
+    draw_ground(list);
+    if (sky_) sky_->draw(view, active_, serving_);
+  }
 }
 
 void GlobeRenderer::begin_frame(const glm::dvec3& position, const glm::dvec3& sun, bool wait,
@@ -102,6 +105,7 @@ void GlobeRenderer::begin_frame(const glm::dvec3& position, const glm::dvec3& su
   if (!wait && loader_.state() && glm::distance(sun, state().target.lighting.sun) < kSunMoved)
     wanted.lighting = state().target.lighting;
   const bool whole = wait || !loader_.state();
+  serving_ = whole ? Serving::kItsSet : Serving::kCompiled;
   const Loader::Uploaded uploaded =
       whole ? loader_.load_whole(wanted) : loader_.load_some(wanted, above_m_, upload_ms);
   if (whole) begin = std::chrono::steady_clock::now();
@@ -146,25 +150,10 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
   const gl::Framebuffer& picture = keep_light ? light_->in_place_of(target) : target;
   if (sky_) sky_->prepare();
 
-  picture.bind();
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_TRUE);
-  glDepthFunc(GL_GREATER);
-  if (settings_.cull_faces) {
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_BACK);
-    glFrontFace(GL_CCW);
-  } else {
-    glDisable(GL_CULL_FACE);
-  }
   const glm::vec3 shown = settings_.background.value_or(glm::vec3(0.0f));
-  const glm::vec3 background = keep_light ? light_shown_as(shown) : shown;
-  picture.clear_color(background.r, background.g, background.b, 1.0f);
-  picture.clear_depth(0.0f);
-
+  begin_ground(picture, settings_.cull_faces, keep_light ? light_shown_as(shown) : shown);
   draw_ground(list);
-  if (sky_) sky_->draw(view, active_);
+  if (sky_) sky_->draw(view, active_, serving_);
   if (!keep_light) return;
   const EffectView light_view{host, camera,   view,     *surface_,           list,   picture, instant_,
                               sun_, height_m, above_m_, effect_view.water_m, active_};
@@ -219,28 +208,18 @@ std::vector<EffectState> GlobeRenderer::effect_states() const {
 void GlobeRenderer::draw_ground(const DrawList& list) {
   patches_.upload(list);
   stats_.triangles += patches_.triangles(list);
-  if (settings_.wireframe) {
-    draw_batches(list, glm::vec4(0.0f, 0.0f, 0.0f, 0.35f));
-    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    glEnable(GL_POLYGON_OFFSET_LINE);
-    glPolygonOffset(1.0f, 1.0f);
-    draw_batches(list, glm::vec4(1.0f, 1.0f, 1.0f, 0.75f));
-    glDisable(GL_POLYGON_OFFSET_LINE);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  } else {
-    draw_batches(list, glm::vec4(0.0f));
-  }
+  draw_wired(settings_.wireframe, [&](const glm::vec4& overlay) { draw_batches(list, overlay); });
 }
 
 void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay) {
   patches_.draw(list, textures(), [&](const Batch& batch) {
-    const gl::Program& program = ground_[static_cast<std::size_t>(
+    EffectProgram& ground = ground_[static_cast<std::size_t>(
         std::find(kLooks.begin(), kLooks.end(), batch.look) - kLooks.begin())];
+    const gl::Program& program = ground.for_active(active_, serving_);
     if (settings_.show != Show::kGround || settings_.wireframe) {
       program.set(3, overlay);
       program.set(4, static_cast<int>(settings_.show));
     }
-    if (effect_shaders_.is_used()) program.set(EffectShaders::kActiveEffects, active_);
     return &program;
   });
 }

@@ -17,11 +17,13 @@
 #include "globe/render/camera.h"
 #include "globe/render/draw_list.h"
 #include "globe/render/effect.h"
+#include "globe/render/effect_program.h"
 #include "globe/render/effect_shaders.h"
 #include "globe/render/light_picture.h"
 #include "globe/render/loader.h"
 #include "globe/render/patch_drawer.h"
 #include "globe/render/sky.h"
+#include "globe/render/surface_renderer.h"
 
 namespace globe::render {
 
@@ -41,23 +43,6 @@ struct RenderSettings {
   bool load_ahead = true;  ///< frames that do not wait load what the camera's motion leads to
 };
 
-/// Figures of the frame last drawn.
-struct FrameStats {
-  std::size_t triangles = 0;
-  std::size_t patches = 0;
-  std::size_t upload_bytes = 0;
-  double upload_ms = 0;  ///< spent on it by this thread
-  double cpu_ms = 0;    ///< our own work: heights, levels, what to load, patches; uploads and the driver left
-                        ///< out, and all of loading where a frame waits
-  int queued_jobs = 0;  ///< levels being computed and uploads that wait
-  std::size_t queued_bytes = 0;  ///< of the uploads
-  std::size_t gpu_bytes = 0;     ///< of the clipmap's textures
-  int finest_level = 0;
-  float fade = 0;           ///< how far that level is still morphed into the one below
-  double completeness = 1;  ///< share of the levels wanted that are in place and shown
-  bool complete = true;     ///< all of them, and none that came late is still morphing in
-};
-
 /// What became of an effect in the frame last drawn.
 struct EffectState {
   std::string name;
@@ -69,57 +54,34 @@ struct EffectState {
 
 /// Draws a planet's surface: hexagonal clipmaps on HTM (DESIGN section 5), a plain sky, and the effects that
 /// it is given.
-class GlobeRenderer {
+class GlobeRenderer : public SurfaceRenderer {
  public:
   /// A GL context must be current and stay so.
   GlobeRenderer(std::shared_ptr<const planet::Surface> surface, const RenderSettings& settings,
                 std::vector<NamedEffect> effects = {});
 
-  /// What a frame may take for uploads unless it is told otherwise, milliseconds.
-  static constexpr double kUploadTime = 4.0;
-
-  /// Draws one frame into the framebuffer.
-  ///
-  /// @param sun        unit vector toward the sun, ECEF
-  /// @param wait       true: everything the view needs is loaded first, so the picture depends on the camera
-  ///                   alone. False: what is there is drawn at once; the rest comes over the next frames.
-  /// @param upload_ms  time that a frame which does not wait spends on uploads, about; some little piece goes
-  ///                   in any case
-  FrameStats draw(const Camera& camera, const glm::dvec3& sun, bool wait, const gl::Framebuffer& target,
-                  double upload_ms = kUploadTime);
-
-  /// The two halves of draw(), for frames that look several ways from one place: first what is shown is
-  /// decided and loaded, then each view is drawn, into a framebuffer of its own or one after the other.
-  void begin_frame(const glm::dvec3& position, const glm::dvec3& sun, bool wait,
-                   double upload_ms = kUploadTime);
-  /// REQUIRES: the camera stands where the frame was begun.
-  void draw_view(const Camera& camera, const gl::Framebuffer& target);
-  /// The moment that effects show from the next frame on; the scene's beginning until then.
-  void set_instant(const Instant& instant) { instant_ = instant; }
+  void begin_frame(const glm::dvec3& position, const glm::dvec3& sun, bool wait, double upload_ms) override;
+  void draw_view(const Camera& camera, const gl::Framebuffer& target) override;
+  void set_instant(const Instant& instant) override { instant_ = instant; }
   /// Of the frame begun last, its views so far; in the order of the effects.
   std::vector<EffectState> effect_states() const;
   /// Of the picture of light that effects with passes are drawn over; 0 without such.
   std::size_t light_bytes() const { return light_ ? light_->gpu_bytes() : 0; }
 
-  /// Of the frame begun last, its views so far.
-  const FrameStats& frame_stats() const { return stats_; }
+  const FrameStats& frame_stats() const override { return stats_; }
 
-  /// Loads the base level and has every program compiled, so that the first frames of a flight take no longer
-  /// than others.
-  void warm_up(const gl::Framebuffer& target);
+  /// Loads the base level and has programs compiled, those of the ground for any set of active effects, so
+  /// that the first frames of a flight take no longer than others.
+  void warm_up(const gl::Framebuffer& target) override;
 
   /// True while levels are being computed in the background.
   bool is_computing() const { return loader_.is_computing(); }
   /// Returns when none are: for tests and benchmarks, which want no race.
   void await_computing() const { loader_.await_computing(); }
 
-  /// Height of the camera above the ground that is drawn at the finest level under it, metres.
-  ///
-  /// @param wait  true: of the level it wants, which may have to be synthesised first; false: of what is at
-  /// hand
-  double height_above_ground(const glm::dvec3& position, bool wait = true) const;
-  /// clipmap::nearest_drawn of that: what the near plane goes by, too.
-  double nearest_drawn(const glm::dvec3& position, bool wait = true) const;
+  double height_above_ground(const glm::dvec3& position, bool wait = true) const override;
+  /// clipmap::nearest_drawn.
+  double nearest_drawn(const glm::dvec3& position, bool wait = true) const override;
 
   /// The clipmap's textures on the GPU.
   const ClipmapTextures& textures() const { return loader_.textures(); }
@@ -141,13 +103,14 @@ class GlobeRenderer {
   EffectShaders effect_shaders_;
   std::vector<Verdict> verdicts_;                     ///< of effects_, in the frame begun last
   int active_ = 0;                                    ///< effects of the view being drawn
+  Serving serving_ = Serving::kItsSet;                ///< of a frame in real time not: it would stall
   std::shared_ptr<const planet::Coloring> coloring_;  ///< the last one of effects_; null: none
   Instant instant_;
   PatchDrawer patches_;
   gl::Buffer view_;
-  std::optional<LightPicture> light_;              ///< where effects have passes
-  std::array<gl::Program, kLooks.size()> ground_;  ///< by Look, in the order of kLooks
-  std::optional<Sky> sky_;                         ///< none with a background
+  std::optional<LightPicture> light_;                ///< where effects have passes
+  std::array<EffectProgram, kLooks.size()> ground_;  ///< by Look, in the order of kLooks
+  std::optional<Sky> sky_;                           ///< none with a background
   Loader loader_;
   Admission admission_;
   glm::dvec3 sun_{1, 0, 0};  ///< of this frame, as the next three

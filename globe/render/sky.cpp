@@ -18,13 +18,11 @@ constexpr float kOutside =
 constexpr float kHighestAir = 100.0f;  ///< km: of the plain air and of any that takes its place
 constexpr float kSunRadius = 0.0047f;  ///< radians, rounded up: sky.frag draws the disc's edge
 
-gl::Program program_of(const char* fragment_shader, int steps, const EffectShaders& effects) {
+gl::ProgramSources sources_of(const char* fragment_shader, int steps) {
   gl::ProgramSources sources;
   sources.files = {"sky.vert", fragment_shader};
   sources.defines = {"CAP_SIDES " + std::to_string(kCapSides), "SKY_STEPS " + std::to_string(steps)};
-  sources.defines.insert(sources.defines.end(), effects.defines().begin(), effects.defines().end());
-  sources.reader = effects.reader();
-  return gl::Program(sources);
+  return sources;
 }
 
 /// A disc of the sky about a direction of round space, by the tangent of its radius as seen from the eye.
@@ -37,11 +35,13 @@ glm::vec4 cap_around(const glm::vec3& axis, float tangent) {
 
 Sky::Sky(bool air, const AirSteps& steps, const EffectShaders& effects)
     : texels_(steps.map),
-      has_effects_(effects.is_used()),
       array_(gl::VertexArray::create()),
-      program_(program_of("sky.frag", steps.sky, effects)) {
+      program_(sources_of("sky.frag", steps.sky), effects) {
   if (!air) return;
-  map_program_ = program_of("sky_map.frag", steps.sky, effects);
+  gl::ProgramSources sources = sources_of("sky_map.frag", steps.sky);
+  sources.defines.insert(sources.defines.end(), effects.defines().begin(), effects.defines().end());
+  sources.reader = effects.reader();
+  map_program_ = gl::Program(sources);
   map_ = gl::Framebuffer(texels_.x, texels_.y, {1, GL_RGBA16F, GL_DEPTH_COMPONENT32F});
   map_.set_color_filter(GL_LINEAR);
 }
@@ -57,34 +57,34 @@ void Sky::prepare() {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Sky::draw(const ViewBlock& view, int active) const {
+void Sky::draw(const ViewBlock& view, int active, Serving serving) {
   glDisable(GL_CULL_FACE);
   glDepthFunc(GL_GEQUAL);
   glDepthMask(GL_FALSE);
   array_.bind();
   if (map_program_) map_.color().bind(4);
-  program_.use();
-  program_.set(0, glm::vec2(texels_));
-  if (has_effects_) program_.set(EffectShaders::kActiveEffects, active);
+  const gl::Program& program = program_.for_active(active, serving);
+  program.use();
+  program.set(0, glm::vec2(texels_));
 
   const glm::vec3 eye(view.eye_km);
   const float distance = glm::length(eye);
   const float top = view.eye_km.w + kHighestAir;
   if (map_program_ && distance <= kOutside * top) {
-    draw_cap(glm::vec4(0.0f));
+    draw_cap(program, glm::vec4(0.0f));
   } else {
     if (map_program_)
-      draw_cap(cap_around(-eye / distance, top / std::sqrt((distance - top) * (distance + top))));
+      draw_cap(program, cap_around(-eye / distance, top / std::sqrt((distance - top) * (distance + top))));
     const glm::vec3 sun =
         glm::normalize(glm::vec3(view.sun) * glm::vec3(view.rounding.x, view.rounding.x, view.rounding.y));
-    draw_cap(cap_around(sun, std::tan(kSunRadius)));
+    draw_cap(program, cap_around(sun, std::tan(kSunRadius)));
   }
   glDepthMask(GL_TRUE);
 }
 
 /// All of the screen for a cap of no size.
-void Sky::draw_cap(const glm::vec4& cap) const {
-  program_.set(1, cap);
+void Sky::draw_cap(const gl::Program& program, const glm::vec4& cap) const {
+  program.set(1, cap);
   if (cap.w == 0.0f)
     glDrawArrays(GL_TRIANGLES, 0, 3);
   else

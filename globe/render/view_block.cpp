@@ -19,7 +19,11 @@ bool has_air(const planet::PlanetInfo& info) {
 
 ViewBlock view_block(const Camera& camera, const planet::Surface& surface, const glm::dvec3& sun,
                      double near_m) {
-  const geo::Ellipsoid& ellipsoid = surface.ellipsoid();
+  return view_block(camera, surface.ellipsoid(), has_air(surface.info()), sun, near_m);
+}
+
+ViewBlock view_block(const Camera& camera, const geo::Ellipsoid& ellipsoid, bool air, const glm::dvec3& sun,
+                     double near_m) {
   // The air follows the ellipsoid: scaled until that is a sphere, it is as thick everywhere.
   const double radius = ellipsoid.mean_radius();
   const glm::dvec3 rounding(radius / ellipsoid.a, radius / ellipsoid.a, radius / ellipsoid.b());
@@ -27,15 +31,15 @@ ViewBlock view_block(const Camera& camera, const planet::Surface& surface, const
   block.clip_from_relative = glm::mat4(clip_from_relative(camera, near_m));
   block.eye_km = glm::vec4(glm::vec3(camera.position * rounding * 1e-3), static_cast<float>(radius * 1e-3));
   block.sun = glm::vec4(glm::vec3(sun), kSunlight);
-  block.rounding = {static_cast<float>(rounding.x), static_cast<float>(rounding.z),
-                    has_air(surface.info()) ? 1.0f : 0.0f, kExposure};
+  block.rounding = {static_cast<float>(rounding.x), static_cast<float>(rounding.z), air ? 1.0f : 0.0f,
+                    kExposure};
   block.right = glm::vec4(glm::vec3(camera.right * camera.tan_x()), 0.0f);
   block.up = glm::vec4(glm::vec3(camera.up * camera.tan_y()), 0.0f);
   block.forward = glm::vec4(glm::vec3(camera.forward), 0.0f);
   const glm::dvec3 eye_km = camera.position * rounding * 1e-3;
   const double height_km = std::max(glm::length(eye_km) - radius * 1e-3, 0.0);
   block.sun_at_eye = glm::vec4(1.0f, 1.0f, 1.0f, 0.0f);
-  if (has_air(surface.info())) {
+  if (air) {
     const double cos_sun = glm::dot(glm::normalize(eye_km), sun);
     block.sun_at_eye = glm::vec4(sun_transmittance(static_cast<float>(height_km), static_cast<float>(cos_sun),
                                                    static_cast<float>(radius * 1e-3)),

@@ -29,5 +29,8 @@ bool has_air(const planet::PlanetInfo& info);
 /// @param near_m  distance of the near plane
 ViewBlock view_block(const Camera& camera, const planet::Surface& surface, const glm::dvec3& sun,
                      double near_m);
+/// @param air  whether there is any
+ViewBlock view_block(const Camera& camera, const geo::Ellipsoid& ellipsoid, bool air, const glm::dvec3& sun,
+                     double near_m);
 
 }  // namespace globe::render

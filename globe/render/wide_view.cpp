@@ -96,7 +96,7 @@ WideView::WideView(const WideFormat& format)
   face_.set_color_filter(GL_LINEAR);
 }
 
-FrameStats WideView::draw(GlobeRenderer& renderer, const Camera& camera, const glm::dvec3& sun, bool wait,
+FrameStats WideView::draw(SurfaceRenderer& renderer, const Camera& camera, const glm::dvec3& sun, bool wait,
                           const gl::Framebuffer& target, double upload_ms) {
   renderer.begin_frame(camera.position, sun, wait, upload_ms);
   target.clear_color(outside_.r, outside_.g, outside_.b, 1.0f);

@@ -5,8 +5,8 @@
 #include "globe/gl/framebuffer.h"
 #include "globe/gl/program.h"
 #include "globe/gl/vertex_array.h"
-#include "globe/render/globe_renderer.h"
 #include "globe/render/projection.h"
+#include "globe/render/surface_renderer.h"
 
 namespace globe::render {
 
@@ -36,14 +36,14 @@ class WideView {
   /// A GL context must be current and stay so.
   explicit WideView(const WideFormat& format);
 
-  /// As GlobeRenderer::draw, into a picture of one sample. What lies outside the field is `outside` and has
+  /// As SurfaceRenderer::draw, into a picture of one sample. What lies outside the field is `outside` and has
   /// no depth.
   /// @param camera  its field of view and aspect are not looked at
-  FrameStats draw(GlobeRenderer& renderer, const Camera& camera, const glm::dvec3& sun, bool wait,
-                  const gl::Framebuffer& target, double upload_ms = GlobeRenderer::kUploadTime);
+  FrameStats draw(SurfaceRenderer& renderer, const Camera& camera, const glm::dvec3& sun, bool wait,
+                  const gl::Framebuffer& target, double upload_ms = SurfaceRenderer::kUploadTime);
 
-  /// As GlobeRenderer::warm_up.
-  void warm_up(GlobeRenderer& renderer) const { renderer.warm_up(face_); }
+  /// As SurfaceRenderer::warm_up.
+  void warm_up(SurfaceRenderer& renderer) const { renderer.warm_up(face_); }
 
   void set_outside(const glm::vec3& color) { outside_ = color; }
   /// Faces that the picture looks through, and texels a side of one.

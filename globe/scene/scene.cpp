@@ -43,6 +43,17 @@ std::string read_planet(Fields& fields) {
   return folder.string();
 }
 
+planet::LayerChoice read_layers(Fields fields, const std::string& planet) {
+  planet::LayerChoice layers;
+  layers.heights = fields.flag("height").value_or(true);
+  layers.colors = fields.flag("color").value_or(true);
+  layers.insets = fields.flag("insets").value_or(true);
+  fields.finish();
+  if (is_procedural(planet))
+    fields.refuse("", "the built-in planet has no layers to choose from", "leave it out, or give a planet");
+  return layers;
+}
+
 void check_size(const Fields& fields, const std::string& text) {
   int width = 0, height = 0;
   const char* last = text.data() + text.size();
@@ -204,6 +215,7 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file,
   Scene scene;
   scene.file = file;
   scene.planet = read_planet(fields);
+  if (const auto layers = fields.table("layers")) scene.layers = read_layers(*layers, scene.planet);
   if (const auto picture = fields.table("picture")) scene.picture = read_picture(*picture);
   const auto camera = fields.table("camera");
   const auto path = fields.table("path");

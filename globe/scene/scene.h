@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "globe/geo/point.h"
+#include "globe/planet/dataset.h"
 #include "globe/scene/fields.h"
 #include "globe/scene/path_key.h"
 
@@ -78,6 +79,7 @@ struct EffectKind {
 struct Scene {
   std::filesystem::path file;
   std::string planet;  ///< a folder, or procedural[:SEED]
+  planet::LayerChoice layers;
   Picture picture;
   std::optional<StandingCamera> camera;
   std::optional<Path> path;

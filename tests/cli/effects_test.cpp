@@ -67,6 +67,19 @@ TEST_F(Effects, AProgramWithoutAnyDrawsTheSameBytesForScenesThatNameNone) {
       << refused.err;
 }
 
+TEST_F(Effects, LeavingOneOutOfTheListChangesNothingOfTheOthers) {
+  const std::string others =
+      "[effects.contours]\n[effects.sea]\nwind_speed = 7\n[effects.fog]\n[effects.stars]\n";
+  const std::string scene = write("others.toml", kCamera + others);
+  EXPECT_EQ(shot(scene), shot(scene, GLOBE_WITHOUT_CLOUDS));
+  const std::string cloudy = write("cloudy.toml", kCamera + others + "[effects.clouds]\n");
+  EXPECT_NE(shot(cloudy), shot(scene));
+  const Outcome refused =
+      run_program(Words{"shot", cloudy, "-o", file("x.png")} + kTiny, "", GLOBE_WITHOUT_CLOUDS);
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.err.find("there is no effect \"clouds\""), std::string::npos) << refused.err;
+}
+
 TEST_F(Effects, ExplainTellsWhoAskedWhereItWorksAndWhatItCosts) {
   const std::string scene =
       write("s.toml", kCamera + "[sun]\naltitude = \"30 deg\"\nazimuth = \"290 deg\"\n" +

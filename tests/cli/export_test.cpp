@@ -124,7 +124,7 @@ TEST_F(ExportCommand, AFullDiskLeavesNothing) {
       const std::string errors = (folder_ / "errors").string();
       if (std::freopen(errors.c_str(), "w", stderr) == nullptr) ::_exit(127);
       cli::become_program(
-          {"export", planet_, "-o", (folder_ / name).string(), "--size", "1536x768", "--quiet"});
+          {"export", planet_, "-o", (folder_ / name).string(), "--size", "1536x768", "--quiet"}, false);
     }
     EXPECT_EQ(cli::wait_for(child), 1) << name;
     const std::string errors = cli::text_of(folder_ / "errors");

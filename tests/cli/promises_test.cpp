@@ -85,6 +85,11 @@ TEST(Program, TellsItsVersion) {
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.out.substr(0, 6), "globe ");
   EXPECT_EQ(run.lines().size(), 1u);
+  const Setting started("GLOBE_TEST_FULL", "1");  // the other tests may run its code without starting it
+  const Outcome again = run_program({"--version"});
+  EXPECT_EQ(again.status, 0);
+  EXPECT_EQ(again.out, run.out);
+  EXPECT_EQ(run_program({"--frobnicate"}).status, 2);
 }
 
 TEST(Program, RefusesUnknownWordsWithOneLineAndStatus2) {

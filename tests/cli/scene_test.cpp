@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/cli/make_planet.h"
 #include "tests/cli/refusals.h"
 #include "tests/cli/run_program.h"
 #include "tests/temporary_folder.h"
@@ -47,7 +48,6 @@ class Scenes : public testing::Test {
     return cli::text_of(picture);
   }
 
- private:
   TemporaryFolder folder_;
 };
 
@@ -56,6 +56,19 @@ const std::vector<std::string> kTiny{"--size", "64x48", "--detail", "16"};
 std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
   words.insert(words.end(), more.begin(), more.end());
   return words;
+}
+
+TEST_F(Scenes, ALayerLeftOutIsNotDrawn) {
+  cli::make_planet(folder_.path(), {"--ellipsoid", "moon"});
+  const Outcome made = run_program({"convert", file("map.tif"), "--color", file("map.tif"), "--ellipsoid",
+                                    "moon", "-o", file("colored"), "--quiet"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::vector<std::string> look = with({"--at", "10,20,200km"}, kTiny);
+  const std::string camera = "\n[sun]\noverhead = \"0,0\"\n";
+  const std::string bare =
+      shot(with({write("bare.toml", "planet = \"colored\"" + camera + "[layers]\ncolor = false\n")}, look));
+  EXPECT_EQ(bare, shot(with({write("plain.toml", "planet = \"planet\"" + camera)}, look)));
+  EXPECT_NE(bare, shot(with({write("whole.toml", "planet = \"colored\"" + camera)}, look)));
 }
 
 TEST_F(Scenes, APictureOfOneIsThatOfTheSameWords) {

@@ -47,7 +47,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
   rooms["globe/search"] = {"globe/base", "globe/geo", "globe/htm", "globe/region"};
   rooms["globe/clipmap"] = {"globe/base", "globe/geo", "globe/htm", "globe/planet"};
   rooms["globe/gl"] = {"globe/base"};
-  rooms["globe/scene"] = {"globe/base", "globe/geo"};
+  rooms["globe/scene"] = {"globe/base", "globe/geo", "globe/planet"};
   rooms["globe/render"] = {"globe/base",   "globe/geo",     "globe/htm",
                            "globe/planet", "globe/clipmap", "globe/gl"};
   rooms["globe/effects"] = {"globe/base",    "globe/geo", "globe/htm",    "globe/planet",
@@ -73,8 +73,8 @@ std::vector<std::string> wrong_includes(const fs::path& relative, const std::str
   if (allowed == kMayInclude.end()) return {relative.string() + " lies in no room that DESIGN names"};
   for (const std::string& include : matches(text, R"re((?:^|\n)#include\s*"([^"]+)")re")) {
     const std::string other = room_of(include);
-    const bool shader_of_the_core = other == "shaders" && room.starts_with("globe/");
-    if (other != room && !shader_of_the_core && !allowed->second.contains(other))
+    const bool shader = other == "shaders" && (room.starts_with("globe/") || room == "flat");
+    if (other != room && !shader && !allowed->second.contains(other))
       wrong.push_back(relative.string() + " includes " + include);
   }
   if (!kWithoutGraphics.contains(room)) return wrong;
@@ -157,6 +157,18 @@ TEST(ClipmapShader, ImpreciseStepsAreFound) {
   EXPECT_FALSE(imprecisions(with("gl_Position = clip;", "gl_Position = clip * 1.0;")).empty());
   EXPECT_FALSE(
       imprecisions(with("position += slot.offset.xyz;", "position += slot.offset.xyz * scale;")).empty());
+}
+
+/// The same of local regions, whose patches meet as two computations of one vertex (flat/patch_mesh.h).
+TEST(GeomipmapShader, EveryStepToThePositionIsPrecise) {
+  const fs::path folder = fs::path(GLOBE_SOURCE_DIR) / "shaders/flat";
+  const std::string shader = text_of(folder / "geomipmap.vert");
+  EXPECT_NE(shader.find("invariant gl_Position;"), std::string::npos);
+  EXPECT_EQ(matches(shader, R"re((precise (?:float z|vec3 local|vec3 position|vec4 clip)) =)re").size(), 4u);
+  EXPECT_EQ(matches(shader, R"re(gl_Position\s*=\s*([^;]+);)re"), std::vector<std::string>{"clip"});
+  const std::string morph = text_of(folder / "geomorph.glsl");
+  EXPECT_EQ(matches(morph, R"re(\n  (precise )(?:float|vec4) \w+ =)re").size(), 3u);
+  EXPECT_EQ(matches(morph, R"re(\n  ((?:float|vec4) \w+ =))re").size(), 0u);
 }
 
 }  // namespace

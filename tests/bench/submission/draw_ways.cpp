@@ -36,10 +36,12 @@ struct Ground {
     array.set_vertices(0, vertices, 0, 2);
     array.set_attribute(0, {0, 2, GL_UNSIGNED_BYTE, 0, globe::gl::Attribute::Kind::kInteger});
     array.set_indices(indices);
-    for (std::size_t k = 0; k < kLooks.size(); ++k)
-      programs[k] =
-          globe::render::ground_program(kLooks[k], scene.textures, false, globe::render::AirSteps{}.haze,
-                                        globe::render::EffectShaders({}, reader));
+    for (std::size_t k = 0; k < kLooks.size(); ++k) {
+      globe::gl::ProgramSources sources =
+          globe::render::ground_sources(kLooks[k], scene.textures, false, globe::render::AirSteps{}.haze);
+      sources.reader = reader;
+      programs[k] = globe::gl::Program(sources);
+    }
   }
 
   void add_instances(const Buffer& instances) {

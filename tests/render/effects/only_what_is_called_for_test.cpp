@@ -5,11 +5,13 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 #include <string>
 
 #include "globe/effects/list.h"
 #include "globe/geo/sun.h"
+#include "globe/render/ground_program.h"
 #include "tests/render/ground/views.h"
 
 namespace {
@@ -175,6 +177,54 @@ TEST_F(OnlyWhatIsCalledFor, WhatIsSeenIsDrawn) {
   EXPECT_TRUE(fog.states.front().verdict.active);
   EXPECT_EQ(fog.next_frame.at("draws"), seen("", 300.0, -20.0).next_frame.at("draws"))
       << "it has no pass of its own";
+}
+
+int active_resources(const globe::gl::Program& program, GLenum kind) {
+  GLint count = 0;
+  glGetProgramInterfaceiv(program.id(), kind, GL_ACTIVE_RESOURCES, &count);
+  return count;
+}
+
+TEST_F(OnlyWhatIsCalledFor, AProgramForASetOfEffectsHasNothingOfTheOthers) {
+  using namespace globe::render;
+  GlobeRenderer renderer(views::builtin_planet(), small_settings());
+  const auto program = [&](const std::string& scene, int active, Serving serving) {
+    const std::vector<NamedEffect> effects = effects_of(scene);
+    const EffectShaders shaders(effects);
+    EffectProgram ground(ground_sources(kLooks.front(), renderer.textures(), false, AirSteps{}.haze),
+                         shaders);
+    const globe::gl::Program& chosen = ground.for_active(active, serving);
+    return std::array{active_resources(chosen, GL_UNIFORM_BLOCK), active_resources(chosen, GL_UNIFORM),
+                      static_cast<int>(chosen.uniform("active_effects"))};
+  };
+  const std::string fog = "[effects.fog]\n", both = fog + "[effects.clouds]\n";
+  const auto plain = program("", 0, Serving::kItsSet);
+  EXPECT_EQ(program(both, 0, Serving::kItsSet), plain);
+  const std::vector<NamedEffect> effects = effects_of(both);
+  const int fog_bit = effects[0].name == "fog" ? 1 : 2;
+  EXPECT_EQ(program(both, fog_bit, Serving::kItsSet), program(fog, 1, Serving::kItsSet));
+  const auto any = program(both, 0, Serving::kCompiled);
+  EXPECT_EQ(any[2], EffectShaders::kActiveEffects) << "what serves any set is told";
+  EXPECT_EQ(any[0], plain[0] + 2);
+}
+
+TEST_F(OnlyWhatIsCalledFor, FramesInRealTimeDrawWhatWholeFramesDo) {
+  const globe::gl::Framebuffer target(kWidth, kHeight);
+  const std::string scene = "[effects.fog]\nbase = \"2 km\"\n[effects.clouds]\naltitude = \"12 km\"\n";
+  const Seen whole = seen(scene, 300.0, -20.0);
+  GlobeRenderer renderer(views::builtin_planet(), small_settings(), effects_of(scene));
+  renderer.warm_up(target);
+  const auto camera =
+      views::camera_above(renderer, *views::builtin_planet(), {"land", -43.42, -106.43}, 300.0, 270.0, -20.0);
+  int frames = 0;
+  bool complete = false;
+  for (; frames < 300 && !complete; ++frames) {
+    complete = renderer.draw(camera, globe::geo::morning_sun(-106.43), false, target, 1e3).complete;
+    renderer.await_computing();
+  }
+  EXPECT_GT(frames, 1);
+  EXPECT_TRUE(complete);
+  EXPECT_EQ(target.read_rgba8(), whole.picture);
 }
 
 TEST_F(OnlyWhatIsCalledFor, APictureDrawnAsLightIsThePictureWithinAStepOfItsBytes) {

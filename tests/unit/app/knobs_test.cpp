@@ -14,6 +14,7 @@
 #include "app/accuracy/study.h"
 #include "app/commands.h"
 #include "globe/gl/context.h"
+#include "globe/planet/surface.h"
 
 // What trades accuracy against time is in the report of `globe accuracy`: each option of the program, and
 // each approximation in the code that no option turns, which its header tags with "@approximation STUDY".

@@ -10,7 +10,7 @@ accuracy::DrawingQuality quality(int detail, double error_px, double ms, double 
   accuracy::DrawingQuality result;
   result.detail = detail;
   result.error_px.max = error_px;
-  result.frame.ms = {ms, ms, ms, ms, high_ms, 31};
+  result.frame.ms = {ms, ms, ms, ms, high_ms, 31, {ms}};
   return result;
 }
 

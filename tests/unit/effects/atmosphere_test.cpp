@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
-#include <string>
 
 #include "app/accuracy/scattering_cases.h"
 
@@ -29,6 +28,23 @@ dvec3 drawn(const effects::AirTables& tables, const accuracy::ScatteringRay& ray
                                panels, sparing);
 }
 
+/// Worst relative error of a look's channels, and what it is less than the reference is sure of (95 %).
+struct LookError {
+  double seen = 0, beyond_interval = 0;
+};
+
+LookError error_of(const effects::AirTables& tables, const accuracy::ScatteringCase& look,
+                   const accuracy::ScatteredLight& value) {
+  const dvec3 truth = value.sum(), light = drawn(tables, look.ray, effects::kSkyPanels);
+  LookError error;
+  for (int channel = 0; channel < 3; ++channel) {
+    const double off = std::abs(light[channel] - truth[channel]);
+    error.seen = std::max(error.seen, off / truth[channel]);
+    error.beyond_interval = std::max(error.beyond_interval, (off - value.interval[channel]) / truth[channel]);
+  }
+  return error;
+}
+
 TEST(Atmosphere, SkyLightIsWithinFivePercentOfAnIndependentIntegrationAtFiftyLooks) {
   const effects::AirTables tables = effects::air_tables(kModel);
   const auto cases = accuracy::scattering_cases();
@@ -36,21 +52,29 @@ TEST(Atmosphere, SkyLightIsWithinFivePercentOfAnIndependentIntegrationAtFiftyLoo
   ASSERT_EQ(values.size(), cases.size());
   ASSERT_GE(cases.size(), 50u);
   double worst = 0;
-  std::string where;
   for (std::size_t k = 0; k < cases.size(); ++k) {
-    const dvec3 truth = values[k].sum(), light = drawn(tables, cases[k].ray, effects::kSkyPanels);
-    for (int channel = 0; channel < 3; ++channel) {
-      // Beyond what the reference is sure of (95 %).
-      const double error =
-          std::max(std::abs(light[channel] - truth[channel]) - values[k].interval[channel], 0.0) /
-          truth[channel];
-      EXPECT_LE(error, 0.05) << cases[k].name << ", channel " << channel;
-      if (error <= worst) continue;
-      worst = error;
-      where = cases[k].name;
-    }
+    const LookError error = error_of(tables, cases[k], values[k]);
+    EXPECT_LE(error.seen, 0.05) << cases[k].name;
+    worst = std::max(worst, error.seen);
   }
-  std::printf("worst: %.2f %%, %s\n", 100.0 * worst, where.c_str());
+  std::printf("worst: %.2f %%\n", 100.0 * worst);
+}
+
+TEST(Atmosphere, LooksDrawnByLotAreWithinFivePercentTooAsFarAsTheReferenceCanTell) {
+  const effects::AirTables tables = effects::air_tables(kModel);
+  const auto cases = accuracy::drawn_scattering_cases();
+  const auto values = accuracy::drawn_scattering_values();
+  ASSERT_EQ(values.size(), cases.size());
+  int plainly = 0;
+  double worst = 0;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const LookError error = error_of(tables, cases[k], values[k]);
+    EXPECT_LE(error.beyond_interval, 0.05) << cases[k].name;
+    plainly += error.seen <= 0.05 ? 1 : 0;
+    worst = std::max(worst, error.seen);
+  }
+  EXPECT_GE(plainly, 49);
+  std::printf("%d of %zu within 5 %%, worst: %.2f %%\n", plainly, cases.size(), 100.0 * worst);
 }
 
 TEST(Atmosphere, HazeBeforeGroundIsWithinFivePercentWithTheSamplesOfAVertex) {

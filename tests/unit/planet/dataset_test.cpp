@@ -98,6 +98,19 @@ TEST(Dataset, GivesBackEverySampleOfEveryLevelAcrossTileBorders) {
   }
 }
 
+TEST(Dataset, LayersLeftOutAreAsGoodAsNotThere) {
+  const tests::TemporaryFolder folder;
+  write_planet(folder.path());
+  const Dataset heights = Dataset::open(folder.path(), 1 << 20, {.colors = false});
+  EXPECT_EQ(heights.layer("color"), nullptr);
+  EXPECT_NE(heights.layer("relief"), nullptr);
+  EXPECT_EQ(heights.info().layers.size(), 2u);
+  const Dataset colors = Dataset::open(folder.path(), 1 << 20, {.heights = false});
+  EXPECT_NE(colors.layer("color"), nullptr);
+  EXPECT_EQ(colors.layer("height"), nullptr);
+  EXPECT_EQ(colors.info().layers.size(), 1u);
+}
+
 TEST(Dataset, FindsTheFinestReliefInTheHeights) {
   const tests::TemporaryFolder folder;
   write_planet(folder.path());

@@ -185,6 +185,9 @@ TEST(Scene, EveryBadKeyIsRefusedByFileLineAndName) {
       {"[effects.swell]\namplitud = 2\n", "s.toml:2: effects.swell.amplitud: ", "did you mean amplitude?"},
       {"[effects.mist]\ndensity = 1.5\n", "s.toml:2: effects.mist.density: 1.5 is not a number from 0 to 1",
        ""},
+      {"[layers]\ncolour = false\n", "s.toml:2: layers.colour: ", "did you mean color?"},
+      {"[layers]\ncolor = 0\n", "s.toml:2: layers.color: 0 is not true or false", ""},
+      {"[layers]\ncolor = false\n", "s.toml:1: layers: the built-in planet has no layers", ""},
       {"effects = 1\n", "s.toml:1: effects: 1 is not a table", ""},
       {"\"a\\u0007\\nb\" = 1\n", "s.toml:1: a  b: ", ""},
   };
@@ -196,9 +199,11 @@ TEST(Scene, FilesAndPlanetsCountFromItsFolder) {
   std::filesystem::create_directories(folder / "earth");
   std::ofstream(folder / "earth/planet.json") << "{}";
   std::ofstream(folder / "way.csv") << "lat,lon,alt\n1,2,3\n1,3,3\n";
-  std::ofstream(folder / "s.toml") << "planet = 'earth'\n[path]\nfile = 'way.csv'\nlift = '1 km'\n";
+  std::ofstream(folder / "s.toml")
+      << "planet = 'earth'\n[layers]\ncolor = false\n[path]\nfile = 'way.csv'\nlift = '1 km'\n";
   const Scene scene = read_scene(folder / "s.toml", {});
   EXPECT_EQ(scene.planet, (folder / "earth").string());
+  EXPECT_TRUE(scene.layers.heights && !scene.layers.colors && scene.layers.insets);
   ASSERT_EQ(scene.path->keys.size(), 2u);
   EXPECT_EQ(scene.path->keys[1].place.h_m, 1003.0);
 }

@@ -1,0 +1,325 @@
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/commands.h"
+#include "app/flat_camera.h"
+#include "app/flat_region.h"
+#include "app/flight_stats.h"
+#include "app/frame_sink.h"
+#include "app/parse_options.h"
+#include "app/point.h"
+#include "app/progress.h"
+#include "app/save_picture.h"
+#include "app/scene_argument.h"
+#include "app/standing_camera.h"
+#include "app/view_options.h"
+#include "flat/geomipmap_renderer.h"
+#include "globe/base/error.h"
+#include "globe/base/pending_file.h"
+#include "globe/gl/context.h"
+#include "globe/gl/timer_query.h"
+
+namespace app {
+namespace {
+
+namespace flat = globe::flat;
+namespace geo = globe::geo;
+namespace render = globe::render;
+
+struct FlatOptions : ViewOptions {
+  FlatRegionOptions region;
+  std::string at;
+  double error_px = 1.0;
+  std::string morph_by = "gpu";
+  std::string lod = "on";
+  std::string culling = "on";
+  std::string shadows = "on";
+  std::string materials = "off";
+  double cloud_shadows = 0;
+  std::string pvs;
+};
+
+struct FilmOptions : FlatOptions {
+  std::string to;
+  int frames = 300;
+  double fps = 30.0;
+  std::string stats;
+};
+
+void add_flat_options(CLI::App& command, FlatOptions& options) {
+  command
+      .add_option(
+          "REGION", options.planet,
+          "a height map of a place, a folder made by globe convert or procedural[:SEED] (with --center), "
+          "or a scene, SCENE.toml")
+      ->required();
+  add_flat_region_options(command, options.region);
+  add_eye_options(command, options);
+  add_picture_options(command, options);
+  add_output_options(command, options);
+  command
+      .add_option("--error", options.error_px,
+                  "pixels that the mesh may be off at most: patches take the coarsest level under it")
+      ->capture_default_str()
+      ->check(in_range(0.0, 1000.0));
+  const auto on_off = [&](const char* name, std::string& value, const char* help) {
+    command.add_option(name, value, help)->capture_default_str()->check(CLI::IsMember({"on", "off"}));
+  };
+  command
+      .add_option(
+          "--morph", options.morph_by,
+          "how levels change: gradually by the vertex shader (gpu) or by this program (cpu), or at once")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"off", "cpu", "gpu"}));
+  on_off("--lod", options.lod, "off: every post is drawn");
+  on_off("--culling", options.culling, "off: patches out of view are drawn too");
+  on_off("--shadows", options.shadows, "off: the ground throws no shadows");
+  on_off("--materials", options.materials, "on: grass, stone and mud, a pass each where they are");
+  command
+      .add_option("--cloud-shadows", options.cloud_shadows,
+                  "share of the sky whose clouds throw shadows, which move")
+      ->capture_default_str()
+      ->check(in_range(0.0, 1.0));
+  command.add_option("--pvs", options.pvs, "file made by globe flat pvs: patches it hides are not drawn");
+}
+
+flat::GeomipmapSettings settings_of(const FlatOptions& options, const Region& region) {
+  flat::GeomipmapSettings settings;
+  settings.error_px = options.error_px;
+  settings.morph = options.morph_by == "off"   ? flat::Morph::kOff
+                   : options.morph_by == "cpu" ? flat::Morph::kCpu
+                                               : flat::Morph::kGpu;
+  settings.lod = options.lod == "on";
+  settings.culling = options.culling == "on";
+  settings.shadows = options.shadows == "on";
+  settings.show = show_of(options);
+  settings.wireframe = options.wireframe;
+  settings.background = background_of(options);
+  settings.air = region.air;
+  if (options.materials == "on") settings.materials = flat::grass_stone_and_mud(*region.terrain);
+  settings.cloud_cover = options.cloud_shadows;
+  if (!options.pvs.empty())
+    settings.visibility =
+        std::make_shared<const flat::Visibility>(flat::Visibility::read(options.pvs, *region.terrain));
+  return settings;
+}
+
+/// A region, what draws it, and through what.
+struct Stage {
+  Region region;
+  Optics optics;
+  Size size;
+  Sunlight sun;
+  globe::gl::Context context;
+  flat::GeomipmapRenderer renderer;
+  Lens lens;
+
+  Stage(const FlatOptions& options, const std::optional<geo::Geodetic>& around)
+      : region(open_region(options, options.region, around)),
+        optics(optics_of(options.optics)),
+        size(size_of(options, optics)),
+        sun(sun_for(options, region.body, around.value_or(region.terrain->frame().origin()))),
+        context(options.device),
+        renderer(region.terrain, flat::post_colors(*region.terrain, region.knowledge),
+                 settings_of(options, region)),
+        lens(optics, size.width, size.height, options.samples, background_of(options)) {}
+
+  const geo::Ellipsoid& ellipsoid() const { return region.terrain->frame().ellipsoid(); }
+
+  render::Camera camera(const FlatView& view) const {
+    return optics.camera(ellipsoid(), view.place, view.look.heading_deg, view.look.pitch_deg,
+                         static_cast<double>(size.width) / size.height);
+  }
+
+  geo::Geodetic stand_at(const Point& point, bool agl) const {
+    return standing_place(point, agl, ellipsoid(),
+                          [&](const glm::dvec3& at) { return renderer.height_above_ground(at); });
+  }
+
+  void check() const {
+    if (!context.errors().empty())
+      throw globe::Error("OpenGL", context.errors().front(), "try --device software");
+  }
+};
+
+void check_options(const FlatOptions& options) {
+  size_of(options, optics_of(options.optics));
+  if (!options.look.empty()) parse_look(options.look);
+  background_of(options);
+}
+
+/// Where the camera stands at first: --at, or the scene's camera.
+struct Start {
+  std::optional<Point> at;
+  bool agl = false;
+  std::optional<Look> look;
+};
+Start start_of(const FlatOptions& options, const std::optional<globe::scene::Scene>& scene) {
+  Start start{std::nullopt, options.agl, std::nullopt};
+  if (scene && scene->camera) {
+    start = {scene->camera->at, options.agl || scene->camera->agl, std::nullopt};
+    if (scene->camera->look) start.look = {scene->camera->look->heading_deg, scene->camera->look->pitch_deg};
+  }
+  if (!options.at.empty()) start.at = parse_point(options.at);
+  return start;
+}
+
+std::optional<globe::scene::Scene> scene_of(const CLI::App& command, FlatOptions& options) {
+  std::optional<globe::scene::Scene> scene = take_scene(command, options);
+  if (scene && !scene->effects.empty())
+    std::fprintf(stderr, "globe: warning: %s: its effects are not drawn over a local region\n",
+                 scene->file.c_str());
+  return scene;
+}
+
+std::optional<geo::Geodetic> place_of(const Start& start) {
+  if (!start.at) return std::nullopt;
+  return start.at->position;
+}
+
+FlatView view_of(const Stage& stage, const Start& start, const FlatOptions& options) {
+  FlatView view = overview(*stage.region.terrain);
+  if (start.at) view = {stage.stand_at(*start.at, start.agl), start.look.value_or(Look{0.0, -90.0})};
+  if (!options.look.empty()) view.look = parse_look(options.look);
+  return view;
+}
+
+void take_shot(FlatOptions options, const CLI::App& command) {
+  const std::optional<globe::scene::Scene> scene = scene_of(command, options);
+  check_options(options);
+  globe::refuse_existing(options.output, options.overwrite);
+  const Start start = start_of(options, scene);
+  Stage stage(options, place_of(start));
+  const render::Camera camera = stage.camera(view_of(stage, start, options));
+  const render::FrameStats drawn = stage.lens.draw(stage.renderer, camera, stage.sun.at(0.0), true);
+  save_picture(options, stage.lens.target(),
+               render::near_distance(stage.ellipsoid(), stage.renderer.nearest_drawn(camera.position)));
+  if (!options.quiet)
+    std::fprintf(stderr, "%zu triangles in %zu of %zu patches\n", drawn.triangles, drawn.patches,
+                 stage.region.terrain->patch_count());
+  stage.check();
+}
+
+/// Where a film ends: --to, or 200 m over the region's middle.
+FlatView end_of(const Stage& stage, const FilmOptions& options) {
+  const flat::TangentFrame& frame = stage.region.terrain->frame();
+  FlatView view{frame.origin(), {0.0, -5.0}};
+  view.place.h_m = frame.geodetic_from_local({0.0, 0.0, stage.region.terrain->z_at(0.0, 0.0)}).h_m + 200.0;
+  if (!options.to.empty()) view.place = stage.stand_at(parse_point(options.to), options.agl);
+  if (!options.look.empty()) view.look = parse_look(options.look);
+  return view;
+}
+
+void film(FilmOptions options, const CLI::App& command) {
+  const std::optional<globe::scene::Scene> scene = scene_of(command, options);
+  check_options(options);
+  if (!options.stats.empty()) globe::refuse_existing(options.stats, options.overwrite);
+  if (options.frames < 1 || options.frames > 1'000'000)
+    throw globe::UsageError("--frames", "not 1 to 1000000", "give a number in that range");
+  const Start start = start_of(options, scene);
+  Stage stage(options, place_of(start));
+  const FlatFlight flight(*stage.region.terrain, view_of(stage, start, options), end_of(stage, options));
+
+  FrameSink sink({options.output, stage.size.width, stage.size.height, options.fps, options.overwrite});
+  FlightStats stats(stage.context.renderer(), stage.context.version(), stage.size.width, stage.size.height,
+                    flat::kPatchCells, 0);
+  Progress progress(progress_style(options.quiet || options.output == "-", false));
+  stage.lens.draw(stage.renderer, stage.camera(flight.at(0.0)), stage.sun.at(0.0), true);
+  globe::gl::TimerQuery timer = globe::gl::TimerQuery::create();
+  for (int k = 0; k < options.frames; ++k) {
+    const double t = options.frames == 1 ? 1.0 : static_cast<double>(k) / (options.frames - 1);
+    const auto begin = std::chrono::steady_clock::now();
+    const FlatView view = flight.at(t);
+    const render::Camera camera = stage.camera(view);
+    stage.renderer.set_instant({k / options.fps});
+    timer.begin();
+    const render::FrameStats frame = stage.lens.draw(stage.renderer, camera, stage.sun.at(0.0), true);
+    stage.lens.target().resolve();
+    timer.end();
+    glFinish();
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    stats.add({k, view.place, stage.renderer.height_above_ground(camera.position), took.count(),
+               timer.wait_milliseconds(), frame});
+    sink.write(stage.lens.target().read_rgba8());
+    progress.show("flying", static_cast<double>(k + 1) / options.frames);
+  }
+  progress.clear();
+  sink.finish();
+  if (!options.stats.empty()) stats.write(options.stats);
+  if (!options.quiet)
+    std::fputs(stats.table(stage.renderer.frame_stats().gpu_bytes).c_str(),
+               options.output == "-" ? stderr : stdout);
+  stage.check();
+}
+
+struct PvsOptions : ViewOptions {
+  FlatRegionOptions region;
+};
+
+void write_pvs(const PvsOptions& options) {
+  globe::refuse_existing(options.output, options.overwrite);
+  const Region region = open_region(options, options.region, std::nullopt);
+  Progress progress(progress_style(options.quiet, false));
+  const flat::Visibility sets = flat::Visibility::compute(
+      *region.terrain, [&](double share) { progress.show("looking around", share); });
+  progress.clear();
+  sets.write(options.output, options.overwrite);
+  if (!options.quiet)
+    std::printf("%zu patches, %d layers, %zu KiB; %.1f %% of the pairs of cells and patches are hidden\n",
+                region.terrain->patch_count(), flat::Visibility::kLayers, sets.bytes() / 1024,
+                100.0 * sets.hidden_share());
+}
+
+}  // namespace
+
+void add_flat(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("flat", "A local region: a height map of a place, or a part of a planet");
+  command->require_subcommand(1);
+
+  auto shot = std::make_shared<FlatOptions>();
+  CLI::App* shot_command = command->add_subcommand("shot", "One picture of a region");
+  add_flat_options(*shot_command, *shot);
+  shot_command->add_option("--at", shot->at,
+                           "where the camera stands: LAT,LON[,ALT] (default: where all of it is seen)");
+  shot_command->footer("Example: globe flat shot st_helens.dem -o helens.png --wireframe");
+  shot_command->callback([shot, shot_command] { take_shot(*shot, *shot_command); });
+
+  auto fly = std::make_shared<FilmOptions>();
+  CLI::App* fly_command = command->add_subcommand("fly", "A flight over a region, frame by frame");
+  add_flat_options(*fly_command, *fly);
+  fly_command->add_option("--from", fly->at, "LAT,LON[,ALT] (default: where all of it is seen)");
+  fly_command->add_option("--to", fly->to, "LAT,LON[,ALT] (default: 200 m over its middle)");
+  fly_command->add_option("--frames", fly->frames, "number of frames")->capture_default_str();
+  fly_command->add_option("--fps", fly->fps, "frames a second of the film")
+      ->capture_default_str()
+      ->check(in_range(1e-3, 1000.0));
+  fly_command->add_option("--stats", fly->stats, "JSON file of figures, frame by frame");
+  fly_command->callback([fly, fly_command] { film(*fly, *fly_command); });
+
+  auto pvs = std::make_shared<PvsOptions>();
+  CLI::App* pvs_command =
+      command->add_subcommand("pvs", "What can be seen from where in a region, for --pvs; on all cores");
+  pvs_command
+      ->add_option("REGION", pvs->planet, "as for shot and fly, with the same --center, --side, --spacing")
+      ->required();
+  add_flat_region_options(*pvs_command, pvs->region);
+  pvs_command->add_option("--exaggeration", pvs->exaggeration, "as for shot and fly")
+      ->capture_default_str()
+      ->check(in_range(0.0, 100.0));
+  pvs_command->add_option("--memory", pvs->memory_mb, "MB of decoded maps and of ground made of them to keep")
+      ->capture_default_str()
+      ->check(CLI::Range(64, 1 << 20));
+  pvs_command->add_option("-o,--output", pvs->output, "file to write")->required();
+  pvs_command->add_flag("--overwrite", pvs->overwrite, "replace existing output");
+  pvs_command->add_flag("--quiet", pvs->quiet, "warnings and errors only");
+  pvs_command->callback([pvs] { write_pvs(*pvs); });
+}
+
+}  // namespace app

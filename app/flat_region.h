@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/view_options.h"
+#include "flat/lightmap.h"
+#include "flat/terrain.h"
+
+namespace app {
+
+/// What part of the ground `globe flat` draws, as it is written.
+struct FlatRegionOptions {
+  std::string center;   ///< LAT,LON
+  std::string side;     ///< with a unit
+  std::string spacing;  ///< likewise
+};
+void add_flat_region_options(CLI::App& command, FlatRegionOptions& options);
+
+/// A region that is open.
+struct Region {
+  std::shared_ptr<const globe::flat::Terrain> terrain;
+  globe::flat::GroundKnowledge knowledge;  ///< of its colours
+  std::string body = "earth";              ///< as PlanetInfo::body has it
+  bool air = true;
+};
+
+/// Opens the region that the word for it (options.planet) names: a height map of a place, of any kind and
+/// projection GDAL reads, about as far as it goes; or a square cut from a planet, around --center or
+/// `around`.
+///
+/// A map's posts are as far apart as its samples unless --spacing says otherwise, of both at most kMostPosts
+/// a side. Of a planet a region is 40 km wide, 1025 posts a side. Voids are filled from what is around them,
+/// which a warning tells. Throws globe::Error or UsageError.
+Region open_region(const ViewOptions& options, const FlatRegionOptions& region,
+                   const std::optional<globe::geo::Geodetic>& around);
+inline constexpr int kMostPosts = 4097;
+
+}  // namespace app
