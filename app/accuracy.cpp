@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/accuracy/compare.h"
+#include "app/accuracy/freed_memory.h"
 #include "app/accuracy/pace.h"
 #include "app/accuracy/report.h"
 #include "app/commands.h"
@@ -120,6 +121,7 @@ void run(const AccuracyOptions& options) {
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     progress.show("errors of " + chosen[k].name, static_cast<double>(k) / static_cast<double>(chosen.size()));
     for (accuracy::Study& study : chosen[k].studies(scope)) studies.push_back(std::move(study));
+    accuracy::return_freed_memory();
   }
   accuracy::MeasuredBeside measured = accuracy::measure_beside(
       accuracy::pace_of_machine(scope.context), std::move(studies), accuracy::rounds_of(scope),

@@ -1,4 +1,5 @@
 #include "app/accuracy/drawing_quality.h"
+#include "app/accuracy/freed_memory.h"
 #include "app/accuracy/repeated_frame.h"
 #include "app/accuracy/study.h"
 
@@ -34,6 +35,7 @@ std::vector<Study> detail_studies(const Scope& scope) {
   std::vector<Settings> settings;
   for (const int detail : details) settings.push_back(Settings::for_detail(detail));
   const std::vector<ErrorFigure> errors = drawn_errors(settings, surface, kPicture, rows);
+  return_freed_memory();
 
   // From 2 km most levels are in view, and ground fills most of the picture.
   const globe::render::Camera camera = judged_views(*surface, kPicture)[3].camera;
@@ -52,6 +54,7 @@ std::vector<Study> detail_studies(const Scope& scope) {
     made[k] =
         std::make_shared<RepeatedFrame>(scope.context, surface, ground, kPicture.width, kPicture.height);
     made[k]->draw_ms(camera, sun);
+    return_freed_memory();
   }
   for (std::size_t k = 0; k < details.size(); ++k) {
     const std::shared_ptr<RepeatedFrame>& frame = made[k];

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "app/accuracy/freed_memory.h"
 #include "app/bench.h"
 #include "app/flight_stats.h"
 
@@ -26,8 +27,13 @@ void run_pass(const Study& study, const Rounds& rounds, std::size_t pass, std::v
     if (round > 0 && std::chrono::steady_clock::now() - begin > rounds.enough) break;
     run_round(study, pass, costs);
   }
-  for (const Setting& setting : study.settings)
-    if (setting.release) setting.release();
+  bool released = false;
+  for (const Setting& setting : study.settings) {
+    if (!setting.release) continue;
+    setting.release();
+    released = true;
+  }
+  if (released) return_freed_memory();
 }
 
 MeasuredStudy measured_of(Study study, const std::vector<PassCosts>& costs) {
