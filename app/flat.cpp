@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/flat_camera.h"
+#include "app/flat_endless.h"
 #include "app/flat_region.h"
 #include "app/flight_stats.h"
 #include "app/frame_sink.h"
@@ -33,7 +34,7 @@ namespace geo = globe::geo;
 namespace render = globe::render;
 
 struct FlatOptions : ViewOptions {
-  FlatRegionOptions region;
+  LocalRegionOptions region;
   std::string at;
   double error_px = 1.0;
   std::string morph_by = "gpu";
@@ -57,9 +58,9 @@ void add_flat_options(CLI::App& command, FlatOptions& options) {
       .add_option(
           "REGION", options.planet,
           "a height map of a place, a folder made by globe convert or procedural[:SEED] (with --center), "
-          "or a scene, SCENE.toml")
+          "fractal[:SEED], or a scene, SCENE.toml")
       ->required();
-  add_flat_region_options(command, options.region);
+  add_local_region_options(command, options.region);
   add_eye_options(command, options);
   add_picture_options(command, options);
   add_output_options(command, options);
@@ -270,7 +271,7 @@ void film(FilmOptions options, const CLI::App& command) {
 }
 
 struct PvsOptions : ViewOptions {
-  FlatRegionOptions region;
+  LocalRegionOptions region;
 };
 
 void write_pvs(const PvsOptions& options) {
@@ -293,6 +294,7 @@ void add_flat(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("flat", "A local region: a height map of a place, or a part of a planet");
   command->require_subcommand(1);
+  add_flat_endless(*command);
 
   auto shot = std::make_shared<FlatOptions>();
   CLI::App* shot_command = command->add_subcommand("shot", "One picture of a region");
@@ -321,7 +323,7 @@ void add_flat(CLI::App& program) {
   pvs_command
       ->add_option("REGION", pvs->planet, "as for shot and fly, with the same --center, --side, --spacing")
       ->required();
-  add_flat_region_options(*pvs_command, pvs->region);
+  add_local_region_options(*pvs_command, pvs->region);
   pvs_command->add_option("--exaggeration", pvs->exaggeration, "as for shot and fly")
       ->capture_default_str()
       ->check(in_range(0.0, 100.0));

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -21,6 +20,7 @@
 #include "flat/fractal/drawer.h"
 #include "flat/fractal/low_flight.h"
 #include "globe/base/error.h"
+#include "globe/base/pending_file.h"
 #include "globe/base/text_file.h"
 #include "globe/gl/context.h"
 
@@ -132,8 +132,7 @@ void run(const EndlessOptions& options) {
   if (picture && options.frames > 1)
     throw globe::UsageError("-o " + options.output, "holds one frame", "give film.mp4 or frames/####.png");
   for (const std::string& path : {options.output, options.stats}) {
-    if (!path.empty() && !options.overwrite && std::filesystem::exists(path))
-      throw globe::Error(path, "the file exists", "give another name or --overwrite");
+    if (!path.empty() && path != "-") globe::refuse_existing(path, options.overwrite);
   }
   const fractal::TerrainSettings settings = terrain_settings(options);
   const double length_m = options.frames / options.fps * options.speed;

@@ -13,6 +13,7 @@
 #include "app/progress.h"
 #include "converters/local_ground.h"
 #include "converters/resources.h"
+#include "flat/fractal/ground.h"
 #include "flat/height_grid.h"
 #include "globe/base/error.h"
 #include "globe/planet/appearance.h"
@@ -46,7 +47,7 @@ std::optional<double> length_of(const std::string& text, const std::string& opti
   throw globe::UsageError(option + " " + text, "not a length up to 4000 km", "give one such as 40km");
 }
 
-std::optional<geo::Geodetic> center_of(const FlatRegionOptions& options) {
+std::optional<geo::Geodetic> center_of(const LocalRegionOptions& options) {
   if (options.center.empty()) return std::nullopt;
   return parse_point(options.center).position;
 }
@@ -125,7 +126,7 @@ HalfSize known_size(const converters::LocalGround& ground, const flat::TangentFr
   return widest;
 }
 
-Region region_of_map(const ViewOptions& options, const FlatRegionOptions& asked) {
+Region region_of_map(const ViewOptions& options, const LocalRegionOptions& asked) {
   Progress progress(progress_style(options.quiet, false));
   const auto ground = std::make_shared<converters::LocalGround>(
       converters::MapInput{options.planet}, geo::kWgs84, static_cast<std::size_t>(options.memory_mb) << 20,
@@ -163,7 +164,7 @@ Region region_of_map(const ViewOptions& options, const FlatRegionOptions& asked)
   return region;
 }
 
-Region region_of_planet(const ViewOptions& options, const FlatRegionOptions& asked,
+Region region_of_planet(const ViewOptions& options, const LocalRegionOptions& asked,
                         const std::optional<geo::Geodetic>& around) {
   const auto center = asked.center.empty() ? around : center_of(asked);
   if (!center) {
@@ -206,24 +207,54 @@ Region region_of_planet(const ViewOptions& options, const FlatRegionOptions& ask
   return region;
 }
 
+/// Around the lattice's origin, wherever on the ellipsoid that is.
+Region region_of_fractal(const ViewOptions& options, const LocalRegionOptions& asked,
+                         const std::optional<geo::Geodetic>& around) {
+  flat::fractal::Settings settings = fractal_settings(asked.fractal, options.planet);
+  if (!asked.spacing.empty()) {
+    throw globe::UsageError("--spacing", "fractal ground has posts 1/2^iterations of an area apart",
+                            "give --area and --iterations");
+  }
+  settings.relief_m *= options.exaggeration;  // heights above the base go by it
+  settings.base_m *= options.exaggeration;
+  const geo::Geodetic center =
+      (asked.center.empty() ? around : center_of(asked)).value_or(geo::Geodetic{45.0, 0.0, 0.0});
+  const double side = length_of(asked.side, "--side").value_or(settings.area_m);
+  const HalfSize half{side / 2.0, side / 2.0};
+  const double spacing = settings.spacing_m();
+  if (side / spacing > kMostPosts - 1) {
+    throw globe::UsageError(options.planet, "makes more than 4097 posts a side",
+                            "give a smaller --side or fewer --iterations");
+  }
+  const flat::fractal::FractalSource source(settings);
+  Region region;
+  region.terrain =
+      std::make_shared<const flat::Terrain>(flat::TangentFrame(geo::kWgs84, center.lat_deg, center.lon_deg),
+                                            source, posts_within(half, spacing, options.planet));
+  return region;
+}
+
 bool names_planet(const std::string& word) {
   return procedural_seed(word).has_value() || fs::exists(fs::path(word) / "planet.json");
 }
 
 }  // namespace
 
-void add_flat_region_options(CLI::App& command, FlatRegionOptions& options) {
+void add_local_region_options(CLI::App& command, LocalRegionOptions& options) {
   command.add_option("--center", options.center,
                      "LAT,LON: the middle of the region (default: of the map; of a planet where --at is)");
-  command.add_option("--side", options.side,
-                     "its width, such as 40km (default: all of the map; 40 km of a planet)");
+  command.add_option(
+      "--side", options.side,
+      "its width, such as 40km (default: all of the map; 40 km of a planet; an area of fractal ground)");
   command.add_option("--spacing", options.spacing,
                      "between posts, such as 30m (default: between the map's samples; of a planet 1/1024 of "
                      "the side)");
+  add_fractal_options(command, options.fractal);
 }
 
-Region open_region(const ViewOptions& options, const FlatRegionOptions& region,
+Region open_region(const ViewOptions& options, const LocalRegionOptions& region,
                    const std::optional<geo::Geodetic>& around) {
+  if (fractal_seed(options.planet)) return region_of_fractal(options, region, around);
   if (names_planet(options.planet)) return region_of_planet(options, region, around);
   return region_of_map(options, region);
 }

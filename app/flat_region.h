@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "app/fractal_options.h"
 #include "app/view_options.h"
 #include "flat/lightmap.h"
 #include "flat/terrain.h"
@@ -11,12 +12,13 @@
 namespace app {
 
 /// What part of the ground `globe flat` draws, as it is written.
-struct FlatRegionOptions {
+struct LocalRegionOptions {
   std::string center;   ///< LAT,LON
   std::string side;     ///< with a unit
   std::string spacing;  ///< likewise
+  FractalOptions fractal;
 };
-void add_flat_region_options(CLI::App& command, FlatRegionOptions& options);
+void add_local_region_options(CLI::App& command, LocalRegionOptions& options);
 
 /// A region that is open.
 struct Region {
@@ -28,12 +30,12 @@ struct Region {
 
 /// Opens the region that the word for it (options.planet) names: a height map of a place, of any kind and
 /// projection GDAL reads, about as far as it goes; or a square cut from a planet, around --center or
-/// `around`.
+/// `around`; or one of fractal ground, whose posts are as far apart as its iterations make them.
 ///
 /// A map's posts are as far apart as its samples unless --spacing says otherwise, of both at most kMostPosts
 /// a side. Of a planet a region is 40 km wide, 1025 posts a side. Voids are filled from what is around them,
 /// which a warning tells. Throws globe::Error or UsageError.
-Region open_region(const ViewOptions& options, const FlatRegionOptions& region,
+Region open_region(const ViewOptions& options, const LocalRegionOptions& region,
                    const std::optional<globe::geo::Geodetic>& around);
 inline constexpr int kMostPosts = 4097;
 
