@@ -1,5 +1,6 @@
 #pragma once
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,6 +48,11 @@ class GlTest : public testing::Test {
   void SetUp() override {
     if (egl_is_absent()) GTEST_SKIP() << "NOTHING WAS TESTED: EGL offers no display here";
     context().clear_errors();
+    // Whatever the test before left.
+    for (const GLenum switched : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND, GL_POLYGON_OFFSET_LINE})
+      glDisable(switched);
+    glDepthMask(GL_TRUE);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
   void TearDown() override {
     if (IsSkipped()) return;
