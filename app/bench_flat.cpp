@@ -56,7 +56,7 @@ struct FlatWorld {
   globe::gl::Context context;
   std::shared_ptr<const globe::planet::Surface> surface;
   std::shared_ptr<const flat::Terrain> terrain;
-  std::vector<glm::vec3> colors;
+  std::vector<glm::vec4> colors;
   glm::dvec3 sun{1, 0, 0};
 };
 

@@ -146,7 +146,7 @@ Benchmark draw_list_benchmark(const std::string& name, const std::shared_ptr<Wor
             const render::GlobeRenderer& renderer = flight->renderer;
             render::make_draw_list(renderer.clipmap_settings(), renderer.state(), renderer.textures(),
                                    flight->world->surface->ellipsoid(), camera,
-                                   renderer.state().target.finest, 0.0f, true);
+                                   {renderer.state().target.finest, 0.0f}, true);
           }};
 }
 

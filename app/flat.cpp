@@ -171,11 +171,36 @@ Start start_of(const FlatOptions& options, const std::optional<globe::scene::Sce
   return start;
 }
 
+/// Takes a scene's region into the options that were not given.
+void take_region(const CLI::App& command, const globe::scene::Region& region, FlatOptions& options) {
+  const auto is_given = [&](const char* option) { return command.get_option(option)->count() > 0; };
+  char text[96];
+  if (!is_given("--center")) {
+    std::snprintf(text, sizeof text, "%.12f,%.12f", region.center.lat_deg, region.center.lon_deg);
+    options.region.center = text;
+  }
+  if (!is_given("--side")) {
+    std::snprintf(text, sizeof text, "%.17gm", region.side_m);
+    options.region.side = text;
+  }
+  if (!is_given("--spacing") && region.spacing_m) {
+    std::snprintf(text, sizeof text, "%.17gm", *region.spacing_m);
+    options.region.spacing = text;
+  }
+  if (!is_given("--error")) options.error_px = region.error_px;
+  if (!is_given("--shadows")) options.shadows = region.shadows ? "on" : "off";
+  if (!is_given("--materials")) options.materials = region.materials ? "on" : "off";
+}
+
 std::optional<globe::scene::Scene> scene_of(const CLI::App& command, FlatOptions& options) {
   std::optional<globe::scene::Scene> scene = take_scene(command, options);
   if (scene && !scene->effects.empty())
-    std::fprintf(stderr, "globe: warning: %s: its effects are not drawn over a local region\n",
-                 scene->file.c_str());
+    std::fprintf(
+        stderr,
+        "globe: warning: %s: its effects are not drawn over a region alone; globe shot and globe fly "
+        "draw them over one in the globe\n",
+        scene->file.c_str());
+  if (scene && scene->region) take_region(command, *scene->region, options);
   return scene;
 }
 

@@ -6,8 +6,12 @@
 
 #include "app/fractal_options.h"
 #include "app/view_options.h"
+#include "flat/geomipmap_ground.h"
 #include "flat/lightmap.h"
 #include "flat/terrain.h"
+#include "globe/render/globe_renderer.h"
+#include "globe/render/region_renderer.h"
+#include "globe/scene/scene.h"
 
 namespace app {
 
@@ -26,6 +30,7 @@ struct Region {
   globe::flat::GroundKnowledge knowledge;  ///< of its colours
   std::string body = "earth";              ///< as PlanetInfo::body has it
   bool air = true;
+  int level = 0;  ///< of the planet, whose nodes are as close as the posts; of a planet only
 };
 
 /// Opens the region that the word for it (options.planet) names: a height map of a place, of any kind and
@@ -38,5 +43,16 @@ struct Region {
 Region open_region(const ViewOptions& options, const LocalRegionOptions& region,
                    const std::optional<globe::geo::Geodetic>& around);
 inline constexpr int kMostPosts = 4097;
+
+/// The part of its planet that a scene's [region] names, of the planet's own ground, insets and all; nothing
+/// without. Throws globe::Error.
+std::optional<Region> region_of(const std::optional<globe::scene::Scene>& scene,
+                                const std::shared_ptr<const globe::planet::Surface>& surface, bool quiet);
+
+/// What draws it in the globe; null without.
+/// A GL context must be current and stay so.
+std::unique_ptr<globe::render::RegionRenderer> region_in_globe(
+    const std::optional<Region>& region, const std::optional<globe::scene::Scene>& scene,
+    const globe::render::RenderSettings& settings);
 
 }  // namespace app

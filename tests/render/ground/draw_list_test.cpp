@@ -92,7 +92,7 @@ TEST_F(GlTest, PatchesShowOneLevelWhereNoVertexCallsForTwo) {
     for (const float fade : {0.0f, 0.4f, 0.6f, 0.8f}) {
       const DrawList list =
           globe::render::make_draw_list(settings, probe.state(), probe.textures(), surface->ellipsoid(),
-                                        camera, probe.state().target.finest, fade, false);
+                                        camera, {probe.state().target.finest, fade}, false);
       for_each_patch(probe, list, [&](const DrawnPatch& patch) {
         if (patch.data.region.level == settings.base_level || patch.batch.look.shading == Shading::kGlint)
           return;
@@ -141,7 +141,7 @@ TEST_F(GlTest, TheSunGlintsOnlyInPatchesDrawnForIt) {
     probe.load(camera.position, settings.base_level + 8, {sun, false});
     const DrawList list =
         globe::render::make_draw_list(settings, probe.state(), probe.textures(), surface->ellipsoid(), camera,
-                                      probe.state().target.finest, 0.0f, false);
+                                      {probe.state().target.finest, 0.0f}, false);
     for_each_patch(probe, list, [&](const DrawnPatch& patch) {
       ++all;
       const bool for_glint = patch.batch.look.shading == Shading::kGlint;
