@@ -249,8 +249,8 @@ void GeomipmapGround::prepare(const GroundView& view) {
   const Terrain& terrain = *terrain_;
   const render::Camera& camera = view.camera;
   const dvec3 eye = terrain.frame().local_from_ecef(camera.position);
-  const ErrorBound bound =
-      error_bound(settings_.error_px, camera.fov_y_deg, camera.aspect, view.picture_height);
+  const ErrorBound bound = error_bound(settings_.error_px, camera.fov_y_deg, camera.aspect,
+                                       view.picture_height, camera.forward * terrain.frame().axes());
   levels_ = settings_.lod ? patch_levels(terrain, eye, bound, settings_.morph)
                           : std::vector<float>(terrain.patch_count(), 0.0f);
   find_visible(camera, eye, view.rim != nullptr ? view.rim->highest_m : 0.0);

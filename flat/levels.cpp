@@ -22,13 +22,31 @@ float level_for(const LevelErrors& errors, double allowed) {
   return static_cast<float>(kLevels - 1);
 }
 
-ErrorBound error_bound(double pixels, double fov_y_deg, double aspect, int picture_height) {
+ErrorBound error_bound(double pixels, double fov_y_deg, double aspect, int picture_height,
+                       const dvec3& axis) {
   const double tan_y = std::tan(fov_y_deg * std::numbers::pi / 360.0);
   // A small step across a ray at an angle a from the axis is stretched by 1 / cos(a) twice: the picture's
   // plane is that much farther off than where the ray ends, and it is tilted.
   const double stretch = 1.0 + tan_y * tan_y * (1.0 + aspect * aspect);
-  return {pixels, 0.5 * picture_height / tan_y * stretch};
+  return {pixels, stretch, axis, 0.5 * picture_height / tan_y * stretch};
 }
+
+namespace {
+
+/// Share of the corner's stretch that a box has at the most, seen from `eye`: 1 / cos^2 of the angle from the
+/// axis to the farthest of the ball around it.
+double stretch_share(const ErrorBound& bound, const Box& box, const dvec3& eye) {
+  const dvec3 to = 0.5 * (box.low + box.high) - eye;
+  const double distance = glm::length(to), radius = 0.5 * glm::distance(box.low, box.high);
+  if (radius >= distance) return 1.0;
+  const double cosine = glm::dot(to, bound.axis) / distance, spread = radius / distance;
+  const double farthest =
+      cosine * std::sqrt(1.0 - spread * spread) - std::sqrt(std::max(1.0 - cosine * cosine, 0.0)) * spread;
+  if (farthest <= 0.0) return 1.0;
+  return std::min(1.0 / (farthest * farthest * bound.corner_stretch), 1.0);
+}
+
+}  // namespace
 
 void limit_steps(std::vector<float>& levels, int patches_east, int patches_north) {
   const auto at = [&](int i, int j) -> float& {
@@ -62,7 +80,8 @@ LevelErrors pixels_off(const Terrain& terrain, std::size_t patch, const dvec3& e
     const double level = std::hypot(std::max(std::abs(eye.x - part.low.x), std::abs(eye.x - part.high.x)),
                                     std::max(std::abs(eye.y - part.low.y), std::abs(eye.y - part.high.y)));
     const double across = level / std::hypot(level, eye.z - nearest.z);
-    const double a_metre = bound.pixels_at_1m * across / std::max(glm::distance(eye, nearest), 1e-6);
+    const double a_metre = bound.pixels_at_1m * stretch_share(bound, part, eye) * across /
+                           std::max(glm::distance(eye, nearest), 1e-6);
     for (std::size_t k = 0; k < kLevels; ++k)
       pixels[k] = std::max(
           pixels[k],

@@ -12,6 +12,7 @@
 #include "globe/clipmap/ray.h"
 #include "globe/geo/sun.h"
 #include "globe/render/globe_renderer.h"
+#include "tests/hard/table.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/unit/flat/rough_ground.h"
 
@@ -152,7 +153,7 @@ TEST_F(Geomipmap, NoBackgroundLeaksBetweenPatchesOfAnyLevels) {
     GeomipmapRenderer renderer = renderer_of(terrain, settings);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> share(-1.0, 1.0);
-    for (int k = 0; k < 20; ++k) {
+    for (int k = 0; k < (hard::full() ? 350 : 20); ++k) {
       const render::Camera camera =
           camera_over(*terrain, 900 * share(random), 900 * share(random),
                       30.0 + 400.0 * std::abs(share(random)), 180 * share(random), -90);
