@@ -1,5 +1,5 @@
-// What `globe accuracy` reports of details, samples and domes, measured again by other means: they agree to
-// 5 %.
+// What `globe accuracy` reports of places of vertices, details, samples and domes, measured again by other
+// means: they agree to 5 %.
 
 #include <epoxy/gl.h>
 #include <tbb/parallel_for.h>
@@ -12,6 +12,7 @@
 
 #include "app/accuracy/drawing_quality.h"
 #include "app/accuracy/mesh_probe.h"
+#include "app/accuracy/position_error.h"
 #include "app/accuracy/repeated_frame.h"
 #include "app/accuracy/samples.h"
 #include "globe/clipmap/ground_below.h"
@@ -25,6 +26,8 @@ namespace {
 namespace accuracy = app::accuracy;
 using accuracy::MeshProbe;
 using globe::clipmap::Settings;
+using globe::planet::Node;
+using globe::planet::Surface;
 using globe::render::Camera;
 using second::Long;
 using second::Second;
@@ -130,6 +133,129 @@ TEST_F(GlTest, DetailErrsByWhatRaysThroughTheTrianglesOfTheGpuSay) {
         if (error >= 0.0L) second.add(error);
     }
     expect_agreement(reported[k], second, "s = " + std::to_string(settings[k].s));
+  }
+}
+
+/// The ground of a level as patches between knots have it, in long double: each triangle of `step` cells a
+/// side spans chords between the points of the ellipsoid at its corners, or a parabola through those in the
+/// middle of its edges, too; heights go along the mean of the corners' normals.
+class PatchGround {
+ public:
+  PatchGround(const Surface& surface, int step, bool parabola)
+      : surface_(surface),
+        earth_(surface.ellipsoid().a, surface.ellipsoid().f),
+        step_(step),
+        parabola_(parabola) {}
+
+  /// Where a node should stand, ECEF metres.
+  Vec truth(const Node& node) const {
+    return on_ellipsoid(node, surface_.drawn_height(surface_.height(node)));
+  }
+  /// Where its patch puts it.
+  Vec drawn(const Node& node) const {
+    const int most = globe::planet::nodes_per_side(node.level) - step_;
+    const int west = std::min(node.i / step_ * step_, most), south = std::min(node.j / step_ * step_, most);
+    const int a = node.i - west, b = node.j - south;
+    std::array<Node, 3> corners{{{node.d, node.level, west, south},
+                                 {node.d, node.level, west + step_, south},
+                                 {node.d, node.level, west, south + step_}}};
+    std::array<Long, 3> shares{1.0L - Long(a + b) / step_, Long(a) / step_, Long(b) / step_};
+    if (a + b > step_) {
+      corners[0] = {node.d, node.level, west + step_, south + step_};
+      shares = {Long(a + b) / step_ - 1.0L, 1.0L - Long(b) / step_, 1.0L - Long(a) / step_};
+    }
+    const Long height = surface_.drawn_height(surface_.height(node));
+    Vec result{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec point = on_ellipsoid(corners[k], 0.0),
+                normal = second::to_long(globe::planet::node_direction(corners[k]));
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        result[axis] += shares[k] * (point[axis] + height * normal[axis]);
+      if (!parabola_) continue;
+      const Node &next = corners[(k + 1) % 3], &last = corners[(k + 2) % 3];
+      const Vec middle =
+                    on_ellipsoid({node.d, node.level, (next.i + last.i) / 2, (next.j + last.j) / 2}, 0.0),
+                from = on_ellipsoid(next, 0.0), to = on_ellipsoid(last, 0.0);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        result[axis] += 4.0L * shares[(k + 1) % 3] * shares[(k + 2) % 3] *
+                        (middle[axis] - (from[axis] + to[axis]) / 2.0L);
+    }
+    return result;
+  }
+
+ private:
+  Vec on_ellipsoid(const Node& node, double height) const {
+    const auto place = second::place_of(globe::planet::node_direction(node));
+    double x = 0, y = 0, z = 0;
+    earth_.Forward(place.lat_deg, place.lon_deg, height, x, y, z);
+    return {x, y, z};
+  }
+
+  const Surface& surface_;
+  GeographicLib::Geocentric earth_;
+  int step_;
+  bool parabola_;
+};
+
+/// Where a drawn vertex stands by what gives its nodes' places: halfway into the next level as far as it is.
+template <typename Place>
+Vec vertex_by(const MeshProbe& probe, const accuracy::ProbeVertex& vertex, const Place& place) {
+  const Node& node = vertex.node;
+  const Vec own = place(vertex.on_rim ? Node{node.d, node.level - 1, node.i / 2, node.j / 2} : node);
+  if (vertex.on_rim || node.level == probe.settings().base_level || (node.i % 2 == 0 && node.j % 2 == 0))
+    return own;
+  const auto at = globe::clipmap::nadir(probe.state().target.u, node.level);
+  const Long share = static_cast<Long>(globe::clipmap::morph_factor(
+      globe::clipmap::morph_band(probe.settings()),
+      globe::clipmap::hex_distance(globe::clipmap::images(at, node.d),
+                                   {node.i * globe::clipmap::kSubcell, node.j * globe::clipmap::kSubcell})));
+  // The edge it halves: along i, along j, or, where both are odd, across.
+  const int di = node.i % 2, dj = node.i % 2 != 0 && node.j % 2 != 0 ? -1 : node.j % 2;
+  const Vec from = place({node.d, node.level, node.i - di, node.j - dj}),
+            to = place({node.d, node.level, node.i + di, node.j + dj});
+  Vec result{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    result[axis] = (1.0L - share) * own[axis] + share * (from[axis] + to[axis]) / 2.0L;
+  return result;
+}
+
+TEST_F(GlTest, ChordsAndParabolasErrByWhatTheirFormulasSay) {
+  using globe::clipmap::Positions;
+  const auto surface = views::builtin_planet();
+  for (const Positions positions : {Positions::kChord, Positions::kQuadratic}) {
+    const Settings settings = accuracy::position_settings(positions);
+    const PatchGround ground(*surface, settings.m, positions == Positions::kQuadratic);
+    MeshProbe probe(surface, settings);
+    for (const accuracy::PositionHeight& height : accuracy::position_heights()) {
+      if (positions == Positions::kQuadratic && height.above_m < 1e6) continue;  // fp32 errs by more
+      accuracy::ErrorSum reported;
+      Second second;
+      for (const auto& place : accuracy::position_places({})) {
+        const Camera camera = accuracy::position_camera(*surface, place, height);
+        const auto on_screen = [&](const Vec& at) {
+          Vec p{};
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            p[axis] = at[axis] - second::to_long(camera.position)[axis];
+          const Long ahead = second::dot(p, second::to_long(camera.forward));
+          return std::array<Long, 2>{
+              second::dot(p, second::to_long(camera.right)) / (ahead * camera.tan_x()) * 640.0L,
+              second::dot(p, second::to_long(camera.up)) / (ahead * camera.tan_y()) * 360.0L};
+        };
+        accuracy::see_vertices(
+            *surface, probe, camera, height.above_m, accuracy::kPositionVertices,
+            [&](const accuracy::Sighting& seen) {
+              if (accuracy::is_hidden(*surface, camera, seen.truth)) return;
+              reported.add(seen.off_px, [] { return std::string(); });
+              const auto truth = on_screen(vertex_by(probe, seen.vertex,
+                                                     [&](const Node&node) { return ground.truth(node); })),
+                         drawn = on_screen(vertex_by(probe, seen.vertex,
+                                                     [&](const Node&node) { return ground.drawn(node); }));
+              second.add(std::hypot(truth[0] - drawn[0], truth[1] - drawn[1]));
+            });
+      }
+      expect_agreement(reported.figure(), second,
+                       std::string(globe::clipmap::name_of(positions)) + " from " + height.words);
+    }
   }
 }
 
