@@ -124,7 +124,8 @@ class DepthOfGround {
 
 TEST_F(GlTest, LevelsOfARegionErrByWhatTheDepthOfPicturesSays) {
   const auto terrain = accuracy::judged_region();
-  const auto views = accuracy::judged_region_views(*terrain, kPicture);
+  auto views = accuracy::judged_region_views(*terrain, kPicture);
+  if (!full()) views.erase(views.begin() + 2, views.end());
   const double spacing = terrain->spacing_m();
   const auto& posts = terrain->posts();
   const auto z = [&](int i, int j) {
@@ -154,7 +155,8 @@ TEST_F(GlTest, LevelsOfARegionErrByWhatTheDepthOfPicturesSays) {
 }
 
 TEST_F(GlTest, EndlessGroundErrsByWhatTheDepthOfPicturesSays) {
-  const auto views = accuracy::judged_endless_views(kPicture);
+  auto views = accuracy::judged_endless_views(kPicture);
+  if (!full()) views.resize(1);
   for (const double fine : full() ? std::vector{5.12, 10.24, 20.48} : std::vector{5.12}) {
     const fractal::TerrainSettings settings = accuracy::endless_ground(fractal::Rings{fine, 2.0 * fine});
     const double spacing = settings.ground.area_m / std::exp2(settings.ground.iterations);
@@ -187,6 +189,7 @@ TEST_F(GlTest, LeapsOfARegionsLevelsAreThoseOfTheTrianglesBeforeAndAfter) {
   const auto walk = accuracy::walk_over(*terrain, kPicture, full() ? accuracy::kWalked : 3);
   const int columns = terrain->posts().columns, rows = terrain->posts().rows;
   for (const flat::Morph morph : {flat::Morph::kOff, flat::Morph::kGpu}) {
+    if (!full() && morph == flat::Morph::kGpu) continue;
     Second second;
     for (const accuracy::WalkStep& step : walk) {
       std::array<std::vector<double>, 2> z;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/geometry.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -15,8 +16,10 @@
 
 #include "app/accuracy/samples.h"
 #include "app/accuracy/vincenty.h"
+#include "globe/geo/arctangent.h"
 #include "globe/geo/geodesic.h"
 #include "globe/htm/cone.h"
+#include "globe/htm/cover.h"
 #include "globe/htm/trixel.h"
 #include "globe/planet/surface.h"
 #include "tests/second_method.h"
@@ -221,6 +224,60 @@ TEST(AccuracyRemeasured, CoversByDistancesAndLHuilier) {
     }
     expect_agreement(setting(studies, "covers.level", "level " + std::to_string(level)), excess);
   }
+  for (const std::size_t limit : {4U, 32U, 256U}) {
+    Second excess;
+    for (const dvec3& centre : centres) {
+      Long sum = 0;
+      for (const globe::htm::IdRange& range :
+           globe::htm::cover(globe::htm::Cone(centre, kConeRadius_deg), {.level = 20, .max_ranges = limit}))
+        globe::htm::for_each_whole_trixel(
+            20, range, [&](globe::htm::Trixel trixel) { sum += area(globe::htm::corners(trixel)); });
+      excess.add(100.0L * (sum / cap - 1.0L));
+    }
+    expect_agreement(setting(studies, "covers.ranges", std::to_string(limit) + " ranges"), excess);
+  }
+}
+
+using Fine = boost::multiprecision::cpp_bin_float_50;
+
+/// Metres on the Earth between a direction and one in fifty digits.
+Long metres_off(const std::array<Fine, 3>& truth, const dvec3& found) {
+  const Fine x = truth[0] - found.x, y = truth[1] - found.y, z = truth[2] - found.z;
+  return static_cast<Long>(sqrt(x * x + y * y + z * z)) * Long(kWgs84.a);
+}
+
+TEST(AccuracyRemeasured, DirectionsAndLongitudesInFiftyDigits) {
+  const std::vector<Study> studies = geometry_studies(kQuick);
+  const Fine degree = boost::math::constants::pi<Fine>() / 180;
+  const auto normal_in = [](auto lat, auto lon) {
+    return dvec3(std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat));
+  };
+  Second in_float, in_double, polynomials, longitude_float, longitude_double, longitude;
+  for (const Geodetic& place : height_places(kQuick)) {
+    const Fine lat = place.lat_deg * degree, lon = place.lon_deg * degree;
+    const std::array<Fine, 3> truth{cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat)};
+    const dvec3 u = globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg);
+    const double degree_double = std::numbers::pi / 180.0;
+    const float degree_float = std::numbers::pi_v<float> / 180.0F;
+    in_float.add(metres_off(truth, normal_in(static_cast<float>(place.lat_deg) * degree_float,
+                                             static_cast<float>(place.lon_deg) * degree_float)));
+    in_double.add(metres_off(truth, normal_in(place.lat_deg * degree_double, place.lon_deg * degree_double)));
+    polynomials.add(metres_off(truth, u));
+    const Fine turn = atan2(Fine(u.y), Fine(u.x));
+    const auto off = [&](double found_deg) {
+      return static_cast<Long>((found_deg * degree - turn) * kWgs84.a);
+    };
+    longitude_float.add(off(static_cast<double>(std::atan2(static_cast<float>(u.y), static_cast<float>(u.x)) *
+                                                180.0F / std::numbers::pi_v<float>)));
+    longitude_double.add(off(std::atan2(u.y, u.x) * 180.0 / std::numbers::pi));
+    longitude.add(off(globe::geo::arctangent(u.y, u.x)));
+  }
+  expect_agreement(setting(studies, "geometry.sine_cosine", "the C library's, float"), in_float);
+  expect_agreement(setting(studies, "geometry.sine_cosine", "the C library's, double"), in_double);
+  expect_agreement(setting(studies, "geometry.sine_cosine", "our polynomials"), polynomials);
+  expect_agreement(setting(studies, "geometry.arctangent", "the C library's, float"), longitude_float);
+  expect_agreement(setting(studies, "geometry.arctangent", "the C library's, double"), longitude_double);
+  expect_agreement(setting(studies, "geometry.arctangent", "our rational function"), longitude);
 }
 
 }  // namespace
