@@ -64,32 +64,45 @@ std::vector<JudgedView> judged_views(const Surface& surface, const PictureSize& 
           view("100 km", 1e5 * scale, -35.0), view("2 km", 2000.0, -12.0), view("eye height", 2.0, -3.0)};
 }
 
+std::vector<std::vector<glm::dvec2>> judged_rays(std::size_t views, const PictureSize& picture, int rows) {
+  std::mt19937_64 random(31);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const int columns = std::max(rows * picture.width / picture.height, 1);
+  std::vector<std::vector<glm::dvec2>> rays(views);
+  for (auto& through : rays) {
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < columns; ++x) {
+        const double across = (x + unit(random)) / columns, down = (y + unit(random)) / rows;
+        through.emplace_back(across, down);
+      }
+    }
+  }
+  return rays;
+}
+
 std::vector<ErrorFigure> drawn_errors(const std::vector<Settings>& settings,
                                       const std::shared_ptr<const Surface>& surface,
                                       const PictureSize& picture, int rows) {
   std::vector<ErrorSum> sums(settings.size());
-  std::mt19937_64 random(31);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  const int columns = std::max(rows * picture.width / picture.height, 1);
-  for (const JudgedView& view : judged_views(*surface, picture)) {
+  const std::vector<JudgedView> views = judged_views(*surface, picture);
+  const auto rays = judged_rays(views.size(), picture, rows);
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const JudgedView& view = views[v];
     std::deque<DrawnSurface> drawn;
     for (const Settings& each : settings)
       drawn.push_back(globe::clipmap::complete_surface(each, surface, view.camera.position, kFinest));
-    for (int y = 0; y < rows; ++y) {
-      for (int x = 0; x < columns; ++x) {
-        const double across = (x + unit(random)) / columns, down = (y + unit(random)) / rows;
-        const globe::clipmap::Ray ray(view.camera.position,
-                                      render::direction_through(view.camera, across, down));
-        for (std::size_t k = 0; k < settings.size(); ++k) {
-          const auto hit = drawn[k].first_hit(ray);
-          if (!hit) continue;
-          sums[k].add(error_at(*surface, view.camera, picture, *hit), [&] {
-            char text[64];
-            std::snprintf(text, sizeof text, "%s, pixel %.0f,%.0f", view.name.c_str(), across * picture.width,
-                          down * picture.height);
-            return std::string(text);
-          });
-        }
+    for (const glm::dvec2& through : rays[v]) {
+      const globe::clipmap::Ray ray(view.camera.position,
+                                    render::direction_through(view.camera, through.x, through.y));
+      for (std::size_t k = 0; k < settings.size(); ++k) {
+        const auto hit = drawn[k].first_hit(ray);
+        if (!hit) continue;
+        sums[k].add(error_at(*surface, view.camera, picture, *hit), [&] {
+          char text[64];
+          std::snprintf(text, sizeof text, "%s, pixel %.0f,%.0f", view.name.c_str(),
+                        through.x * picture.width, through.y * picture.height);
+          return std::string(text);
+        });
       }
     }
   }

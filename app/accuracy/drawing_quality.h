@@ -1,6 +1,7 @@
 #pragma once
 
-#include <glm/vec3.hpp>
+#include <cstddef>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,10 +30,14 @@ struct JudgedView {
 /// Orbit, the limb from 1000 km, 100 km, 2 km and eye height, all at the planet's mountains.
 std::vector<JudgedView> judged_views(const globe::planet::Surface& surface, const PictureSize& picture);
 
+/// Rays through the picture of each of several views, jittered on a grid of `rows` rows: shares of its width
+/// from the left and of its height from the top. The same on every run.
+std::vector<std::vector<glm::dvec2>> judged_rays(std::size_t views, const PictureSize& picture, int rows);
+
 /// How far the surface drawn of each of several settings is from the surface at its finest, pixels: a figure
 /// for each of the settings.
 ///
-/// Rays through the picture, jittered on a grid of `rows` rows, meet the drawn surface in double precision
+/// Rays (judged_rays) meet the drawn surface in double precision
 /// (clipmap/drawn_surface.h). Each point is compared with the finest surface above or below it: triangles
 /// of an eighth of a pixel, level 26 at most. What the GPU rounds beside that is the business of the
 /// positions. The same on every run. All settings go together, for they share the ground that has to be

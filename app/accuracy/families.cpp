@@ -37,7 +37,11 @@ std::vector<Family> families() {
        .approximations = {"shading.tone", "shading.texels", "shading.normals"},
        .draws = true},
       {.name = "samples", .studies = sample_studies, .knobs = {"--samples"}, .draws = true},
-      {.name = "domes", .studies = dome_studies, .knobs = {"--faces"}, .draws = true}};
+      {.name = "domes", .studies = dome_studies, .knobs = {"--faces"}, .draws = true},
+      {.name = "flat",
+       .studies = flat_studies,
+       .knobs = {"flat --error", "flat --lod", "flat --morph", "flat --spacing", "flat endless --rings"},
+       .draws = true}};
 }
 
 }  // namespace app::accuracy

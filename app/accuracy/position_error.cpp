@@ -63,6 +63,35 @@ Camera camera_over(const Surface& surface, const dvec3& u, double above_m, doubl
   return globe::render::make_camera(surface.ellipsoid(), place, heading_deg, pitch_deg, 60.0, 16.0 / 9.0);
 }
 
+std::vector<PositionHeight> position_heights() {
+  return {{"eye", "eye height, 2 m", 2.0, -6.0},
+          {"100m", "100 m", 100.0, -20.0},
+          {"10km", "10 km", 1e4, -30.0},
+          {"1000km", "1000 km", 1e6, -60.0},
+          {"orbit", "orbit, 20,000 km", 2e7, -90.0}};
+}
+
+std::vector<globe::geo::Geodetic> position_places(const Scope& scope) {
+  std::vector<globe::geo::Geodetic> result{{0.013, 89.983}, {35.2644, -135.0}};
+  if (scope.full)
+    result.insert(result.end(),
+                  {{90.0, 0.0}, {-57.9, 180.0}, {41.3, 0.0}, {0.0, 30.7}, {47.0, 11.0}, {-33.0, -70.0}});
+  return result;
+}
+
+Camera position_camera(const Surface& surface, const globe::geo::Geodetic& place,
+                       const PositionHeight& height) {
+  return camera_over(surface, globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg), height.above_m,
+                     70.0, height.pitch_deg);
+}
+
+globe::clipmap::Settings position_settings(globe::clipmap::Positions positions) {
+  constexpr int kDetail = 64;
+  globe::clipmap::Settings settings = globe::clipmap::Settings::for_detail(kDetail, 0);
+  settings.positions = positions;
+  return settings;
+}
+
 int finest_for(const MeshProbe& probe, const Surface& surface, double above_m) {
   return globe::clipmap::finest_level(probe.settings(), surface.root_edge(), above_m, 26).level;
 }

@@ -3,8 +3,11 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/accuracy/mesh_probe.h"
+#include "app/accuracy/study.h"
 
 namespace app::accuracy {
 
@@ -38,5 +41,21 @@ struct Sighting {
 /// Shows `see` some `wanted` of the vertices in view.
 void see_vertices(const Surface& surface, MeshProbe& probe, const Camera& camera, double above_m,
                   std::size_t wanted, const std::function<void(const Sighting&)>& see);
+
+/// What places of vertices are judged by: cameras at each height over each place, and as many vertices of
+/// each view.
+struct PositionHeight {
+  std::string name, words;
+  double above_m;
+  double pitch_deg;
+};
+std::vector<PositionHeight> position_heights();
+/// Beside an octahedron's corner, in the middle of a face; in full also at a pole, on edges of diamonds, and
+/// elsewhere.
+std::vector<globe::geo::Geodetic> position_places(const Scope& scope);
+Camera position_camera(const Surface& surface, const globe::geo::Geodetic& place,
+                       const PositionHeight& height);
+globe::clipmap::Settings position_settings(globe::clipmap::Positions positions);
+constexpr std::size_t kPositionVertices = 2000;
 
 }  // namespace app::accuracy

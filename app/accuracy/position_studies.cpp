@@ -13,29 +13,9 @@ namespace {
 using globe::clipmap::Positions;
 using globe::clipmap::Settings;
 
-constexpr int kDetail = 64;
-constexpr std::size_t kVertices = 2000;       ///< looked at in a view
 constexpr std::size_t kDrawnCorners = 60000;  ///< of yardsticks, for their time
 
-struct Height {
-  std::string name, words;
-  double above_m;
-  double pitch_deg;
-};
-const std::vector<Height> kHeights{{"eye", "eye height, 2 m", 2.0, -6.0},
-                                   {"100m", "100 m", 100.0, -20.0},
-                                   {"10km", "10 km", 1e4, -30.0},
-                                   {"1000km", "1000 km", 1e6, -60.0},
-                                   {"orbit", "orbit, 20,000 km", 2e7, -90.0}};
-
-/// Beside an octahedron's corner, at a pole, on an edge of diamonds, in the middle of a face; more in full.
-std::vector<globe::geo::Geodetic> places(bool full) {
-  std::vector<globe::geo::Geodetic> result{{0.013, 89.983}, {35.2644, -135.0}};
-  if (full)
-    result.insert(result.end(),
-                  {{90.0, 0.0}, {-57.9, 180.0}, {41.3, 0.0}, {0.0, 30.7}, {47.0, 11.0}, {-33.0, -70.0}});
-  return result;
-}
+const std::vector<PositionHeight> kHeights = position_heights();
 
 std::string place_text(const globe::geo::Geodetic& place, const dvec3& relative) {
   char text[80];
@@ -53,17 +33,6 @@ constexpr std::array kModes{Mode{Positions::kExact, "16 bytes a vertex, 16 for i
                             Mode{Positions::kChord, "4 bytes a vertex, 32 a knot every 8 cells"},
                             Mode{Positions::kFloat32, "16 bytes a vertex, 16 for its morph target"}};
 
-Settings settings_of(Positions positions, int shading_levels) {
-  Settings settings = Settings::for_detail(kDetail, shading_levels);
-  settings.positions = positions;
-  return settings;
-}
-
-Camera camera_at(const Surface& surface, const globe::geo::Geodetic& place, const Height& height) {
-  return camera_over(surface, globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg), height.above_m,
-                     70.0, height.pitch_deg);
-}
-
 /// A vertex in view that the yardsticks are held to, and the triangles beside it for their time.
 struct Seen {
   globe::geo::Geodetic place;
@@ -71,12 +40,13 @@ struct Seen {
   std::vector<dvec3> corners;  ///< ECEF metres; as many as make whole triangles
 };
 
-std::string sample_text(const Height& height, std::size_t views) {
-  return std::to_string(kVertices) + " vertices of each of " + std::to_string(views) + " views from " +
-         height.words + ", at a corner of the octahedron and elsewhere; 1280x720, 60 degrees high";
+std::string sample_text(const PositionHeight& height, std::size_t views) {
+  return std::to_string(kPositionVertices) + " vertices of each of " + std::to_string(views) +
+         " views from " + height.words +
+         ", at a corner of the octahedron and elsewhere; 1280x720, 60 degrees high";
 }
 
-Study mode_study(const Height& height, std::size_t views) {
+Study mode_study(const PositionHeight& height, std::size_t views) {
   return {"positions." + height.name,
           "Places of vertices seen from " + height.words,
           "--positions",
@@ -91,13 +61,13 @@ Study mode_study(const Height& height, std::size_t views) {
 std::vector<ErrorSum> errors_of(const std::shared_ptr<const Surface>& surface, Positions positions,
                                 const std::vector<globe::geo::Geodetic>& at,
                                 std::vector<std::vector<Seen>>* seen) {
-  MeshProbe probe(surface, settings_of(positions, 0));
+  MeshProbe probe(surface, position_settings(positions));
   std::vector<ErrorSum> sums(kHeights.size());
   for (std::size_t h = 0; h < kHeights.size(); ++h) {
     for (const auto& place : at) {
-      const Camera camera = camera_at(*surface, place, kHeights[h]);
+      const Camera camera = position_camera(*surface, place, kHeights[h]);
       Seen view{place, camera, {}};
-      see_vertices(*surface, probe, camera, kHeights[h].above_m, kVertices, [&](const Sighting& s) {
+      see_vertices(*surface, probe, camera, kHeights[h].above_m, kPositionVertices, [&](const Sighting& s) {
         if (is_hidden(*surface, camera, s.truth)) return;
         sums[h].add(s.off_px, [&] { return place_text(place, s.truth); });
         view.corners.push_back(camera.position + s.truth);
@@ -121,7 +91,7 @@ dvec3 ground_below(const Surface& surface, const globe::geo::Geodetic& place) {
 }
 
 Study yardstick_study(const std::shared_ptr<globe::gl::Context>& context, const Surface& surface,
-                      const Height& height, const std::vector<Seen>& seen) {
+                      const PositionHeight& height, const std::vector<Seen>& seen) {
   Study study{"positions." + height.name + ".yardsticks",
               "Places of vertices by other arithmetic, from " + height.words,
               "--positions",
@@ -160,7 +130,7 @@ Study memory_study(Study study) {
   study.title = "Places of vertices seen from eye height, against memory";
   study.cost_unit = "bytes a vertex";
   for (std::size_t k = 0; k < kModes.size(); ++k) {
-    const Settings settings = settings_of(kModes[k].positions, 0);
+    const Settings settings = position_settings(kModes[k].positions);
     const globe::render::ClipmapTextures textures(settings);
     const double nodes = static_cast<double>(settings.window()) * settings.window();
     constexpr double kShading = 5.0;  // a node's at shading level 0, which is no matter of its place
@@ -173,18 +143,18 @@ Study memory_study(Study study) {
 
 std::vector<Study> position_studies(const Scope& scope) {
   const std::shared_ptr<const Surface>& surface = scope.planet;
-  const auto at = places(scope.full);
+  const auto at = position_places(scope);
   std::vector<Study> studies;
-  for (const Height& height : kHeights) studies.push_back(mode_study(height, at.size()));
+  for (const PositionHeight& height : kHeights) studies.push_back(mode_study(height, at.size()));
   std::vector<std::vector<Seen>> seen(kHeights.size());
   for (const Mode& mode : kModes) {
     const bool is_default = mode.positions == Positions::kExact;
     const auto sums = errors_of(surface, mode.positions, at, is_default ? &seen : nullptr);
     globe::render::RenderSettings ground;
-    ground.clipmap = settings_of(mode.positions, 0);  // in so small a picture nothing finer is seen
+    ground.clipmap = position_settings(mode.positions);  // in so small a picture nothing finer is seen
     const auto frame = remade<RepeatedFrame>(scope.context, surface, ground, 64, 36);
     for (std::size_t h = 0; h < kHeights.size(); ++h) {
-      const Camera camera = camera_at(*surface, at.front(), kHeights[h]);
+      const Camera camera = position_camera(*surface, at.front(), kHeights[h]);
       const glm::dvec3 sun = sun_over(*surface, camera);
       studies[h].settings.push_back({std::string(globe::clipmap::name_of(mode.positions)), sums[h].figure(),
                                      [=] { return frame->get().draw_ms(camera, sun); }, is_default,

@@ -1,4 +1,5 @@
-#include <GeographicLib/Geodesic.hpp>
+#include "app/accuracy/question_studies.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -6,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "app/accuracy/samples.h"
 #include "globe/htm/cone.h"
 #include "globe/planet/interpolation.h"
 #include "globe/planet/profile.h"
@@ -21,31 +21,8 @@ namespace planet = globe::planet;
 using globe::geo::Geodetic;
 using globe::htm::dvec3;
 
-constexpr double kEye_m = 30.0;
-constexpr double kApart_m = 50e3;
-
-using Ground = std::shared_ptr<const planet::Surface>;
-
-double height_of(const planet::Surface& surface, const Geodetic& place, int level) {
-  return planet::height_at(surface, globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg), level,
-                           planet::Interpolation::kLinear)
-      .height_m;
-}
-
-/// Pairs of places kApart_m from each other, both on land, where heights matter.
-std::vector<PlacePair> looks(const planet::Surface& surface, std::size_t count, int level) {
-  const GeographicLib::Geodesic geodesic(surface.ellipsoid().a, surface.ellipsoid().f);
-  std::vector<PlacePair> result;
-  for (const Geodetic& place : height_places({true})) {
-    if (result.size() == count) break;
-    const double azimuth_deg = 137.0 * static_cast<double>(result.size());
-    Geodetic other;
-    geodesic.Direct(place.lat_deg, place.lon_deg, azimuth_deg, kApart_m, other.lat_deg, other.lon_deg);
-    if (std::min(height_of(surface, place, level), height_of(surface, other, level)) > 50.0)
-      result.push_back({place, other});
-  }
-  return result;
-}
+/// Bytes that the ground asked about keeps: what all questions of a study need at one level, and more.
+constexpr std::size_t kGroundCache = planet::Surface::kDefaultCache / 4;
 
 std::string text_of(const PlacePair& pair) {
   char text[96];
@@ -73,8 +50,9 @@ void add(Study& study, std::string name, bool is_default,
   study.settings.push_back({std::move(name), sum.figure(), cost, is_default});
 }
 
-Study summaries(const Ground& ground, const Scope& scope, int finest) {
-  std::vector<dvec3> centres = cone_centres(scope);
+}  // namespace
+
+Study summary_study(const Ground& ground, const std::vector<dvec3>& centres, int finest) {
   const auto regions = std::make_shared<std::vector<globe::htm::Cone>>();
   for (const dvec3& centre : centres) regions->emplace_back(centre, 0.5 * kConeRadius_deg);
   const auto highest = [ground](const globe::htm::Cone& cone, int level) {
@@ -101,11 +79,11 @@ Study summaries(const Ground& ground, const Scope& scope, int finest) {
   return study;
 }
 
-Study sights(const Ground& ground, const std::vector<PlacePair>& pairs, int finest) {
+Study sight_study(const Ground& ground, const std::vector<PlacePair>& pairs, int finest) {
   const auto eyes = std::make_shared<std::vector<PlacePair>>(pairs);
   for (PlacePair& pair : *eyes) {
-    pair.a.h_m = height_of(*ground, pair.a, finest) + kEye_m;
-    pair.b.h_m = height_of(*ground, pair.b, finest) + kEye_m;
+    pair.a.h_m += kEye_m;
+    pair.b.h_m += kEye_m;
   }
   const auto clearance = [ground](const PlacePair& pair, int level) {
     return planet::sight(*ground, pair.a, pair.b, {.level = level}).lowest.clearance_m;
@@ -130,7 +108,7 @@ Study sights(const Ground& ground, const std::vector<PlacePair>& pairs, int fine
   return study;
 }
 
-Study profiles(const Ground& ground, const std::vector<PlacePair>& pairs, int finest) {
+Study profile_study(const Ground& ground, const std::vector<PlacePair>& pairs, int finest) {
   const auto ways = std::make_shared<std::vector<PlacePair>>(pairs);
   const auto highest = [ground, finest](const PlacePair& pair, std::size_t count) {
     double top = -1e9;
@@ -161,13 +139,12 @@ Study profiles(const Ground& ground, const std::vector<PlacePair>& pairs, int fi
   return study;
 }
 
-}  // namespace
-
 std::vector<Study> question_studies(const Scope& scope) {
-  const auto ground = planet::Surface::builtin(1);
-  const int finest = scope.full ? 15 : 14;
-  const std::vector<PlacePair> pairs = looks(*ground, scope.full ? 100 : 20, finest);
-  return {summaries(ground, scope, finest), sights(ground, pairs, finest), profiles(ground, pairs, finest)};
+  const auto ground = planet::Surface::builtin(1, kGroundCache);
+  const int finest = question_level(scope);
+  const std::vector<PlacePair> pairs = land_pairs(*ground, scope, finest);
+  return {summary_study(ground, cone_centres(scope), finest), sight_study(ground, pairs, finest),
+          profile_study(ground, pairs, finest)};
 }
 
 }  // namespace app::accuracy

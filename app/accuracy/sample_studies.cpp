@@ -5,13 +5,12 @@
 #include <cstdint>
 #include <cstdio>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include <numbers>
-#include <random>
 
 #include "app/accuracy/drawing_quality.h"
 #include "app/accuracy/remade.h"
 #include "app/accuracy/repeated_frame.h"
+#include "app/accuracy/samples.h"
 #include "app/accuracy/study.h"
 #include "globe/gl/program.h"
 #include "globe/gl/vertex_array.h"
@@ -19,15 +18,8 @@
 namespace app::accuracy {
 namespace {
 
-constexpr int kSide = 32;  ///< of the picture, pixels
-constexpr int kEdges = 400;
+constexpr int kSide = kEdgeSide;
 constexpr PictureSize kPicture;
-
-/// A line, and the side of it that is drawn: where a point's part along `normal` is less than `offset`.
-struct Edge {
-  glm::dvec2 normal;
-  double offset;
-};
 
 /// Share of a pixel's area on the drawn side: the square cut along the line, by the shoelace formula.
 double covered(const Edge& edge, const glm::dvec2& corner) {
@@ -59,12 +51,8 @@ ErrorFigure edge_error(int samples) {
   sources.files = {"accuracy/half_plane.vert", "accuracy/plain.frag"};
   const globe::gl::Program program(sources);
   const globe::gl::VertexArray array = globe::gl::VertexArray::create();
-  std::mt19937_64 random(71);
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
   ErrorSum sum;
-  for (int k = 0; k < kEdges; ++k) {
-    const double turn = std::numbers::pi * unit(random);
-    const Edge edge{{std::cos(turn), std::sin(turn)}, 8.0 * unit(random)};
+  for (const Edge& edge : sample_edges()) {
     target.bind();
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
@@ -84,7 +72,7 @@ ErrorFigure edge_error(int samples) {
         sum.add(100.0 * (shown - share), [&] {
           char text[64];
           std::snprintf(text, sizeof text, "edge at %.1f degrees, pixel %d,%d",
-                        turn * 180.0 / std::numbers::pi, x, y);
+                        std::atan2(edge.normal.y, edge.normal.x) * 180.0 / std::numbers::pi, x, y);
           return std::string(text);
         });
       }
@@ -103,7 +91,7 @@ std::vector<Study> sample_studies(const Scope& scope) {
               "Samples a pixel",
               "--samples",
               "the area of each pixel on either side of a straight edge",
-              "pixels on " + std::to_string(kEdges) + " edges at any angle",
+              "pixels on " + std::to_string(sample_edges().size()) + " edges at any angle",
               "% of a pixel",
               "ms a frame of 1280x720 pixels, from 2 km",
               {}};

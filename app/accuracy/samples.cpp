@@ -1,9 +1,12 @@
 #include "app/accuracy/samples.h"
 
+#include <GeographicLib/Geodesic.hpp>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+
+#include "globe/planet/interpolation.h"
 
 namespace app::accuracy {
 namespace {
@@ -65,6 +68,39 @@ std::vector<globe::htm::dvec3> cone_centres(const Scope& scope) {
     result.push_back(u / std::sqrt(u.x * u.x + u.y * u.y + u.z * u.z));
   }
   return result;
+}
+
+std::vector<PlacePair> land_pairs(const globe::planet::Surface& surface, const Scope& scope, int level) {
+  const std::size_t count = scope.full ? 100 : 20;
+  const GeographicLib::Geodesic geodesic(surface.ellipsoid().a, surface.ellipsoid().f);
+  const auto ground = [&](const Geodetic& place) {
+    return globe::planet::height_at(surface, globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg),
+                                    level, globe::planet::Interpolation::kLinear)
+        .height_m;
+  };
+  std::vector<PlacePair> result;
+  for (Geodetic place : height_places({true})) {
+    if (result.size() == count) break;
+    const double azimuth_deg = 137.0 * static_cast<double>(result.size());
+    Geodetic other;
+    geodesic.Direct(place.lat_deg, place.lon_deg, azimuth_deg, kApart_m, other.lat_deg, other.lon_deg);
+    place.h_m = ground(place);
+    other.h_m = ground(other);
+    if (std::min(place.h_m, other.h_m) > 50.0) result.push_back({place, other});
+  }
+  return result;
+}
+
+std::vector<Edge> sample_edges() {
+  constexpr int kEdges = 400;
+  std::mt19937_64 random(71);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::vector<Edge> edges;
+  for (int k = 0; k < kEdges; ++k) {
+    const double turn = std::numbers::pi * unit(random);
+    edges.push_back({{std::cos(turn), std::sin(turn)}, 8.0 * unit(random)});
+  }
+  return edges;
 }
 
 converters::Harmonics known_relief() { return {64, 20261124, 1000.0}; }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/geometry.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -15,11 +16,13 @@
 
 #include "app/accuracy/samples.h"
 #include "app/accuracy/vincenty.h"
-#include "converters/round_trip.h"
+#include "globe/geo/arctangent.h"
 #include "globe/geo/geodesic.h"
 #include "globe/htm/cone.h"
+#include "globe/htm/cover.h"
 #include "globe/htm/trixel.h"
 #include "globe/planet/surface.h"
+#include "tests/second_method.h"
 
 // The errors that `globe accuracy` reports, measured again by other formulas, other libraries or in higher
 // precision, over the same places: they agree to 5 %.
@@ -27,68 +30,12 @@
 namespace app::accuracy {
 namespace {
 
+using namespace second;
 using globe::geo::Geodetic;
 using globe::geo::kWgs84;
 using globe::htm::dvec3;
-using Long = long double;
 
-constexpr Long kLongDegree = std::numbers::pi_v<Long> / 180.0L;
 const Scope kQuick{};
-
-const Setting& setting(const std::vector<Study>& studies, const std::string& study, const std::string& name) {
-  for (const Study& candidate : studies) {
-    if (candidate.name != study) continue;
-    for (const Setting& found : candidate.settings)
-      if (found.name == name) return found;
-  }
-  throw std::out_of_range(study + ", " + name);
-}
-
-/// The largest and the root mean square of errors as the second method sees them.
-class Second {
- public:
-  void add(Long error, Long weight = 1.0L) {
-    max_ = std::max(max_, std::abs(error));
-    squares_ += weight * error * error;
-    weights_ += weight;
-  }
-  Long max() const { return max_; }
-  Long rms() const { return std::sqrt(squares_ / weights_); }
-
- private:
-  Long max_ = 0, squares_ = 0, weights_ = 0;
-};
-
-void expect_agreement(const Setting& reported, const Second& second) {
-  EXPECT_NEAR(reported.error.max / static_cast<double>(second.max()), 1.0, 0.05) << reported.name;
-  EXPECT_NEAR(reported.error.rms / static_cast<double>(second.rms()), 1.0, 0.05) << reported.name;
-}
-
-using Vec = std::array<Long, 3>;
-
-Long dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec cross(const Vec& a, const Vec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vec to_long(const dvec3& u) { return {u.x, u.y, u.z}; }
-Vec direction(const Geodetic& place) {
-  const Long lat = Long(place.lat_deg) * kLongDegree, lon = Long(place.lon_deg) * kLongDegree;
-  return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
-}
-Geodetic place_of(const dvec3& u) {
-  return {std::atan2(u.z, std::hypot(u.x, u.y)) * 180.0 / std::numbers::pi,
-          std::atan2(u.y, u.x) * 180.0 / std::numbers::pi};
-}
-
-/// The angle at the centre, by Kahan's half angles.
-Long angle(const Vec& a, const Vec& b) {
-  Long apart = 0, together = 0;
-  for (int k = 0; k < 3; ++k) {
-    apart += (a[k] - b[k]) * (a[k] - b[k]);
-    together += (a[k] + b[k]) * (a[k] + b[k]);
-  }
-  return 2.0L * std::atan2(std::sqrt(apart), std::sqrt(together));
-}
 
 TEST(AccuracyRemeasured, DistancesOnTheEllipsoidByBoostAndTheSeriesOfGeographicLib) {
   namespace bg = boost::geometry;
@@ -152,35 +99,6 @@ TEST(AccuracyRemeasured, PlacesOnTheSphereByGeographicLib) {
   for (const PlacePair& pair : geodesic_pairs(kQuick)) look(pair.a);
   for (const double lat : {-90.0, 0.0, 90.0}) look({lat, 45.0});
   expect_agreement(setting(geodesic_studies(kQuick), "geodesics.shape", "sphere"), sphere);
-}
-
-/// A trixel's corners and the share that each has in the point where the direction meets its plane.
-struct Corners {
-  std::array<Geodetic, 3> places;
-  std::array<Long, 3> shares;
-};
-
-Corners corners_around(const dvec3& u, int level) {
-  const globe::htm::Corners corners = globe::htm::corners(globe::htm::trixel_at(u, level));
-  Corners result{};
-  Long sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec next = to_long(corners[(k + 1) % 3]), last = to_long(corners[(k + 2) % 3]);
-    result.places[k] = place_of(corners[k]);
-    result.shares[k] = dot(to_long(u), cross(next, last));
-    sum += result.shares[k];
-  }
-  for (Long& share : result.shares) share /= sum;
-  return result;
-}
-
-Long spline(const std::array<Long, 4>& p, Long t) {
-  // By the polynomials of Catmull and Rom's matrix; clamped as ours are.
-  const Long s = 1.0L - t;
-  const Long value = 0.5L * (-t * s * s * p[0] + (2.0L - 5.0L * t * t + 3.0L * t * t * t) * p[1] +
-                             (t + 4.0L * t * t - 3.0L * t * t * t) * p[2] - t * t * s * p[3]);
-  const auto [low, high] = std::minmax_element(p.begin(), p.end());
-  return std::clamp(value, *low, *high);
 }
 
 TEST(AccuracyRemeasured, HeightsBetweenNodesFromTheFunctionAtTheCornersOfHtm) {
@@ -306,61 +224,60 @@ TEST(AccuracyRemeasured, CoversByDistancesAndLHuilier) {
     }
     expect_agreement(setting(studies, "covers.level", "level " + std::to_string(level)), excess);
   }
+  for (const std::size_t limit : {4U, 32U, 256U}) {
+    Second excess;
+    for (const dvec3& centre : centres) {
+      Long sum = 0;
+      for (const globe::htm::IdRange& range :
+           globe::htm::cover(globe::htm::Cone(centre, kConeRadius_deg), {.level = 20, .max_ranges = limit}))
+        globe::htm::for_each_whole_trixel(
+            20, range, [&](globe::htm::Trixel trixel) { sum += area(globe::htm::corners(trixel)); });
+      excess.add(100.0L * (sum / cap - 1.0L));
+    }
+    expect_agreement(setting(studies, "covers.ranges", std::to_string(limit) + " ranges"), excess);
+  }
 }
 
-TEST(AccuracyRemeasured, RoundTripsOfAMapByTheTextbook) {
-  const auto [width, truth_width, level] = map_sample(kQuick);
-  const converters::Harmonics relief = known_relief();
-  const converters::HeightMap map = converters::map_of(relief, width),
-                              truth = converters::map_of(relief, truth_width);
-  const Long step = 360.0L / width;
-  // Heights are alike everywhere on the pole, so rows beyond it are those of the other side.
-  const auto pixel = [&](int x, int y) {
-    if (y < 0 || y >= map.height()) {
-      y = y < 0 ? -1 - y : 2 * map.height() - 1 - y;
-      x += width / 2;
-    }
-    x = ((x % width) + width) % width;
-    return Long(map.metres[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                           static_cast<std::size_t>(x)]);
+using Fine = boost::multiprecision::cpp_bin_float_50;
+
+/// Metres on the Earth between a direction and one in fifty digits.
+Long metres_off(const std::array<Fine, 3>& truth, const dvec3& found) {
+  const Fine x = truth[0] - found.x, y = truth[1] - found.y, z = truth[2] - found.z;
+  return static_cast<Long>(sqrt(x * x + y * y + z * z)) * Long(kWgs84.a);
+}
+
+TEST(AccuracyRemeasured, DirectionsAndLongitudesInFiftyDigits) {
+  const std::vector<Study> studies = geometry_studies(kQuick);
+  const Fine degree = boost::math::constants::pi<Fine>() / 180;
+  const auto normal_in = [](auto lat, auto lon) {
+    return dvec3(std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat));
   };
-  const auto sample = [&](const Geodetic& place, bool nearest) {
-    const Long x = (Long(place.lon_deg) + 180.0L) / step - 0.5L, y = (90.0L - place.lat_deg) / step - 0.5L;
-    if (nearest) return pixel(static_cast<int>(std::floor(x + 0.5L)), static_cast<int>(std::floor(y + 0.5L)));
-    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-    const Long fx = x - x0, fy = y - y0;
-    return (1.0L - fy) * ((1.0L - fx) * pixel(x0, y0) + fx * pixel(x0 + 1, y0)) +
-           fy * ((1.0L - fx) * pixel(x0, y0 + 1) + fx * pixel(x0 + 1, y0 + 1));
-  };
-  const Long truth_step = 360.0L / truth_width;
-  std::vector<std::array<std::vector<Long>, 2>> errors(static_cast<std::size_t>(truth.height()));
-  tbb::parallel_for(0, truth.height(), [&](int y) {
-    auto& row = errors[static_cast<std::size_t>(y)];
-    for (int x = 0; x < truth_width; ++x) {
-      const double lat = static_cast<double>(90.0L - (y + 0.5L) * truth_step),
-                   lon = static_cast<double>((x + 0.5L) * truth_step - 180.0L);
-      const Corners corners = corners_around(globe::geo::normal_from_degrees(lat, lon), level);
-      const auto most = std::max_element(corners.shares.begin(), corners.shares.end());
-      const Long nearest =
-          sample(corners.places[static_cast<std::size_t>(most - corners.shares.begin())], true);
-      Long linear = 0;
-      for (std::size_t c = 0; c < 3; ++c) linear += corners.shares[c] * sample(corners.places[c], false);
-      const Long height = truth.metres[static_cast<std::size_t>(y) * static_cast<std::size_t>(truth_width) +
-                                       static_cast<std::size_t>(x)];
-      row[0].push_back(nearest - height);
-      row[1].push_back(linear - height);
-    }
-  });
-  std::array<Second, 2> second;
-  for (int y = 0; y < truth.height(); ++y) {
-    const Long weight = std::cos((90.0L - (y + 0.5L) * truth_step) * kLongDegree);
-    for (std::size_t method = 0; method < 2; ++method)
-      for (const Long error : errors[static_cast<std::size_t>(y)][method]) second[method].add(error, weight);
+  Second in_float, in_double, polynomials, longitude_float, longitude_double, longitude;
+  for (const Geodetic& place : height_places(kQuick)) {
+    const Fine lat = place.lat_deg * degree, lon = place.lon_deg * degree;
+    const std::array<Fine, 3> truth{cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat)};
+    const dvec3 u = globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg);
+    const double degree_double = std::numbers::pi / 180.0;
+    const float degree_float = std::numbers::pi_v<float> / 180.0F;
+    in_float.add(metres_off(truth, normal_in(static_cast<float>(place.lat_deg) * degree_float,
+                                             static_cast<float>(place.lon_deg) * degree_float)));
+    in_double.add(metres_off(truth, normal_in(place.lat_deg * degree_double, place.lon_deg * degree_double)));
+    polynomials.add(metres_off(truth, u));
+    const Fine turn = atan2(Fine(u.y), Fine(u.x));
+    const auto off = [&](double found_deg) {
+      return static_cast<Long>((found_deg * degree - turn) * kWgs84.a);
+    };
+    longitude_float.add(off(static_cast<double>(std::atan2(static_cast<float>(u.y), static_cast<float>(u.x)) *
+                                                180.0F / std::numbers::pi_v<float>)));
+    longitude_double.add(off(std::atan2(u.y, u.x) * 180.0 / std::numbers::pi));
+    longitude.add(off(globe::geo::arctangent(u.y, u.x)));
   }
-  const std::vector<Study> studies = conversion_studies(kQuick);
-  const std::string study = "conversion.filter.l" + std::to_string(level);
-  expect_agreement(setting(studies, study, "nearest"), second[0]);
-  expect_agreement(setting(studies, study, "bilinear"), second[1]);
+  expect_agreement(setting(studies, "geometry.sine_cosine", "the C library's, float"), in_float);
+  expect_agreement(setting(studies, "geometry.sine_cosine", "the C library's, double"), in_double);
+  expect_agreement(setting(studies, "geometry.sine_cosine", "our polynomials"), polynomials);
+  expect_agreement(setting(studies, "geometry.arctangent", "the C library's, float"), longitude_float);
+  expect_agreement(setting(studies, "geometry.arctangent", "the C library's, double"), longitude_double);
+  expect_agreement(setting(studies, "geometry.arctangent", "our rational function"), longitude);
 }
 
 }  // namespace

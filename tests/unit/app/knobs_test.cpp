@@ -25,23 +25,29 @@ namespace fs = std::filesystem;
 using Words = std::set<std::string>;
 
 /// Options that say what is asked for, where it goes or how it is written; more of them costs no accuracy.
-const Words kNoKnobs{"--help", "--version",
-                     // what is asked
-                     "--at", "--pixel", "--look", "--from", "--to", "--agl", "--time", "--fov", "--size",
-                     "--frames", "--fps", "--extent", "--range", "--layer", "--show", "--wireframe",
-                     "--background", "--exaggeration", "--drawn", "--projection", "--axis", "--moment",
-                     "--error", "--details", "--full", "--cone", "--polygon", "--box", "--edges",
-                     "--complement", "--inner", "--near", "--radius", "find --count", "--name", "--where",
-                     "--columns", "--refraction", "--suite", "--only", "--hard", "--compare", "--rounds",
-                     "--verify", "lookup --level", "height --level", "profile --level", "export --level",
-                     // what the input means
-                     "--color", "--latitude", "--voids", "--geoid", "--datum", "--credit", "--registration",
-                     "--crs", "--nodata", "--scale", "--offset", "--units", "--rim",
-                     // where it goes, and how it is written
-                     "--output", "--overwrite", "--quiet", "--progress", "--json", "--csv", "--geojson",
-                     "--strict", "--precision", "--title", "--stats", "--trace", "--contact-sheet",
-                     // what it may use: the same bytes with more or less
-                     "--memory", "--threads", "--jobs", "--job", "--device", "--wait", "--budget"};
+const Words kNoKnobs{
+    "--help", "--version",
+    // what is asked
+    "--at", "--pixel", "--look", "--from", "--to", "--agl", "--time", "--fov", "--size", "--frames", "--fps",
+    "--extent", "--range", "--layer", "--show", "--wireframe", "--background", "--exaggeration", "--drawn",
+    "--projection", "--axis", "--moment", "tune --error", "--details", "--full", "--cone", "--polygon",
+    "--box", "--edges", "--complement", "--inner", "--near", "--radius", "find --count", "--name", "--where",
+    "--columns", "--refraction", "--suite", "--only", "--hard", "--compare", "--rounds", "--verify",
+    "lookup --level", "height --level", "profile --level", "export --level", "flat --center", "flat --side",
+    "flat --shadows", "flat --materials", "flat --cloud-shadows", "flat endless --height",
+    "flat endless --speed", "flat endless --sight",
+    // of fractal ground: which ground that is, and how much of it is there
+    "--iterations", "--roughness", "--relief", "--area", "--base", "--contrast", "--method",
+    "flat endless --block", "flat endless --blocks",
+    // what the input means
+    "--color", "--latitude", "--voids", "--geoid", "--datum", "--credit", "--registration", "--crs",
+    "--nodata", "--scale", "--offset", "--units", "--rim",
+    // where it goes, and how it is written
+    "--output", "--overwrite", "--quiet", "--progress", "--json", "--csv", "--geojson", "--strict",
+    "--precision", "--title", "--stats", "--trace", "--contact-sheet",
+    // what it may use: the same bytes with more or less
+    "--memory", "--threads", "--jobs", "--job", "--device", "--wait", "--budget", "flat --culling",
+    "flat --pvs", "flat endless --slack", "flat endless --cached-areas"};
 
 Words knobs_of_the_report() {
   Words knobs;
@@ -50,24 +56,39 @@ Words knobs_of_the_report() {
   return knobs;
 }
 
-/// Calls `use` with every command's name and each of its options.
+/// Calls `use` with the names of every command ("flat shot") and each of its options.
+template <typename Use>
+void for_each_option_of(const CLI::App& parent, const std::string& names, const Use& use) {
+  for (const CLI::App* command : parent.get_subcommands([](const CLI::App*) { return true; })) {
+    const std::string own = names + (names.empty() ? "" : " ") + command->get_name();
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& name : option->get_lnames()) use(own, "--" + name);
+    for_each_option_of(*command, own, use);
+  }
+}
 template <typename Use>
 void for_each_option(const Use& use) {
   CLI::App program;
   int exit_status = 0;
   app::add_commands(program, exit_status);
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
-    for (const CLI::Option* option : command->get_options())
-      for (const std::string& name : option->get_lnames()) use(command->get_name(), "--" + name);
+  for_each_option_of(program, "", use);
+}
+
+/// What a list may call an option of a command: alone, or after the command or after what that belongs to.
+Words names_of(const std::string& command, const std::string& option) {
+  return {option, command + " " + option, command.substr(0, command.find(' ')) + " " + option};
 }
 
 TEST(AccuracyKnobs, EveryOptionIsInTheReportOrCostsNoAccuracy) {
   const Words knobs = knobs_of_the_report();
   for_each_option([&](const std::string& command, const std::string& option) {
-    const std::string whole = command + " " + option;
     if (command == "bench" && option == "--filter") return;
-    EXPECT_TRUE(knobs.count(whole) + knobs.count(option) + kNoKnobs.count(whole) + kNoKnobs.count(option) > 0)
-        << whole << ": neither a study of `globe accuracy` has it as its knob, nor is it listed as costing "
+    const Words names = names_of(command, option);
+    EXPECT_TRUE(
+        std::any_of(names.begin(), names.end(),
+                    [&](const std::string& name) { return knobs.count(name) + kNoKnobs.count(name) > 0; }))
+        << command << ' ' << option
+        << ": neither a study of `globe accuracy` has it as its knob, nor is it listed as costing "
         << "no accuracy";
   });
 }
@@ -75,8 +96,7 @@ TEST(AccuracyKnobs, EveryOptionIsInTheReportOrCostsNoAccuracy) {
 TEST(AccuracyKnobs, TheReportNamesNoOptionThatDoesNotExist) {
   Words options;
   for_each_option([&](const std::string& command, const std::string& option) {
-    options.insert(option);
-    options.insert(command + " " + option);
+    options.merge(names_of(command, option));
   });
   for (const std::string& knob : knobs_of_the_report()) EXPECT_EQ(options.count(knob), 1u) << knob;
 }
@@ -85,7 +105,7 @@ TEST(AccuracyKnobs, TheReportNamesNoOptionThatDoesNotExist) {
 Words tagged_studies() {
   Words tags;
   static const std::regex tag("@approximation ([a-z0-9_., ]+)"), name("[a-z0-9_.]*[a-z0-9_]");
-  for (const char* room : {"globe", "converters", "shaders", "app"}) {
+  for (const char* room : {"globe", "converters", "flat", "shaders", "app"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(GLOBE_SOURCE_DIR) / room)) {
       if (!entry.is_regular_file()) continue;
       std::ifstream file(entry.path());

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/accuracy/samples.h"
+#include "app/accuracy/study.h"
+#include "globe/planet/surface.h"
+
+namespace app::accuracy {
+
+/// Answers about a planet's ground against those of level `finest`, over whichever places: what
+/// question_studies() is made of.
+
+using Ground = std::shared_ptr<const globe::planet::Surface>;
+
+/// The highest place in cones of half kConeRadius_deg, by the level whose nodes are looked at.
+Study summary_study(const Ground& ground, const std::vector<globe::htm::dvec3>& centres, int finest);
+
+/// How far lines of sight clear the ground, by its level, from kEye_m over one place of a pair to the other.
+Study sight_study(const Ground& ground, const std::vector<PlacePair>& pairs, int finest);
+
+/// The highest place on the way between two, by the number of samples.
+Study profile_study(const Ground& ground, const std::vector<PlacePair>& pairs, int finest);
+
+}  // namespace app::accuracy
