@@ -156,7 +156,7 @@ TEST_F(GlobeRegionTest, ItShowsTheGlobesOwnGround) {
     for (std::size_t k = 0; k < a.size(); ++k) off.push_back(pixels * std::abs(a[k].z - b[k].z) / above);
     std::sort(off.begin(), off.end());
     EXPECT_LT(off[off.size() / 2], 0.3) << above;
-    EXPECT_LT(off[off.size() * 98 / 100], 2.0) << above;  // the rest are behind edges
+    EXPECT_LT(off[off.size() * 98 / 100], 3.0) << above;  // the rest are behind edges
   }
 }
 
