@@ -195,11 +195,10 @@ void take_region(const CLI::App& command, const globe::scene::Region& region, Fl
 std::optional<globe::scene::Scene> scene_of(const CLI::App& command, FlatOptions& options) {
   std::optional<globe::scene::Scene> scene = take_scene(command, options);
   if (scene && !scene->effects.empty())
-    std::fprintf(
-        stderr,
-        "globe: warning: %s: its effects are not drawn over a region alone; globe shot and globe fly "
-        "draw them over one in the globe\n",
-        scene->file.c_str());
+    std::fprintf(stderr,
+                 "globe: warning: %s:%d: effects.%s: not drawn over a region alone; globe shot and globe fly "
+                 "draw them over one in the globe\n",
+                 scene->file.c_str(), scene->effects.front().line, scene->effects.front().name.c_str());
   if (scene && scene->region) take_region(command, *scene->region, options);
   return scene;
 }

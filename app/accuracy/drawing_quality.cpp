@@ -107,6 +107,7 @@ std::vector<ErrorFigure> drawn_errors(const std::vector<Settings>& settings,
     }
   }
   std::vector<ErrorFigure> figures;
+  figures.reserve(sums.size());
   for (const ErrorSum& sum : sums) figures.push_back(sum.figure());
   return figures;
 }
@@ -137,6 +138,7 @@ std::vector<DrawingQuality> drawing_quality(const std::shared_ptr<globe::gl::Con
                                             const std::shared_ptr<const Surface>& surface,
                                             const PictureSize& picture, const Scope& scope) {
   std::vector<Settings> settings;
+  settings.reserve(details.size());
   for (const int detail : details) settings.push_back(Settings::for_detail(detail));
   const std::vector<ErrorFigure> errors =
       drawn_errors(settings, surface, picture, scope.full ? kRowsFull : kRowsQuick);

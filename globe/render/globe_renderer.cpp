@@ -96,6 +96,7 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
     }
   }
   list.batches = std::move(batches);
+  for (const NamedEffect& named : effects_) named.effect->warm_up();
   // Of the sets of effects: those of such a view, none, and whatever a frame in real time meets.
   const ViewBlock view = view_block(camera, *surface_, sun_, near_distance(surface_->ellipsoid(), above_m_));
   const int seen = active_;
@@ -185,8 +186,8 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
   draw_ground(list);
   if (sky_) sky_->draw(view, active_, serving_);
   if (!keep_light) return;
-  const EffectView light_view{host, camera,   view,     *surface_,           list,   picture, instant_,
-                              sun_, height_m, above_m_, effect_view.water_m, active_};
+  const EffectView light_view{host, camera,   view,     *surface_,           list,    picture, instant_,
+                              sun_, height_m, above_m_, effect_view.water_m, active_, serving_};
   for (const Stage stage : {Stage::kHeavens, Stage::kSurface, Stage::kLayer, Stage::kLens}) {
     if (stage == Stage::kSurface || !settings_.background) draw_passes(light_view, stage);
   }

@@ -141,7 +141,7 @@ TEST(FlatInAGlobe, TheSameSceneIsARegionAlone) {
                    folder.path() / "a.png", "--size", "160x90"});
   ASSERT_EQ(alone.status, 0) << alone.err;
   EXPECT_NE(alone.err.find("of 144 patches"), std::string::npos) << alone.err;  // 4 km of 12 by 12
-  EXPECT_NE(alone.err.find("globe shot and globe fly draw them"), std::string::npos) << alone.err;
+  EXPECT_NE(alone.err.find("effects.fog: not drawn over a region alone"), std::string::npos) << alone.err;
 }
 
 TEST(Flat, RefusesInOneLine) {
