@@ -176,7 +176,7 @@ void add_rings(const Scope& scope, std::vector<Study>& studies) {
     const auto ground = endless_ground(rings);
     const ErrorFigure error = rings ? displacement(ground, views, kPicture) : ErrorFigure{};
     const auto frame = remade<EndlessFrame>(scope.context, ground, kPicture);
-    const EndlessView view = views.front();
+    const EndlessView& view = views.front();
     frame->get().draw_ms(view);
     const std::size_t triangles = frame->get().triangles();
     frame->release();
