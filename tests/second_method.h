@@ -78,7 +78,7 @@ inline Geodetic place_of(const dvec3& u) {
 /// The angle at the centre, by Kahan's half angles.
 inline Long angle(const Vec& a, const Vec& b) {
   Long apart = 0, together = 0;
-  for (int k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
     apart += (a[k] - b[k]) * (a[k] - b[k]);
     together += (a[k] + b[k]) * (a[k] + b[k]);
   }

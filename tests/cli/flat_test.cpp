@@ -82,7 +82,7 @@ TEST(Flat, VisibleSetsAreOfTheRegionTheyWereMadeFor) {
 
 /// A scene with a region, the camera over it or beside.
 std::string region_scene(const tests::TemporaryFolder& folder, const std::string& more = "") {
-  const std::string file = folder.path() / "s.toml";
+  std::string file = folder.path() / "s.toml";
   std::ofstream(file) << "planet = 'procedural'\n[camera]\nat = '-43.42,-106.43,900'\nagl = true\n"
                          "look = '110,-35'\n[region]\ncenter = '-43.43,-106.41'\nside = '4 km'\n"
                          "spacing = '20 m'\n"

@@ -49,8 +49,8 @@ class GlTest : public testing::Test {
     if (egl_is_absent()) GTEST_SKIP() << "NOTHING WAS TESTED: EGL offers no display here";
     context().clear_errors();
     // Whatever the test before left.
-    for (const GLenum switched : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND, GL_POLYGON_OFFSET_LINE})
-      glDisable(switched);
+    for (const auto switched : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND, GL_POLYGON_OFFSET_LINE})
+      glDisable(static_cast<GLenum>(switched));
     glDepthMask(GL_TRUE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }

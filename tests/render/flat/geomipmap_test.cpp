@@ -50,6 +50,7 @@ std::vector<render::Camera> tour(const Terrain& terrain, int count, unsigned see
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const double half = 0.4 * (terrain.posts().columns - 1) * terrain.spacing_m();
   std::vector<render::Camera> cameras;
+  cameras.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k)
     cameras.push_back(camera_over(terrain, half * (2 * share(random) - 1), half * (2 * share(random) - 1),
                                   2.0 * std::pow(500.0, share(random)), 360 * share(random),

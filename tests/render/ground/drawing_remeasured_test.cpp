@@ -266,8 +266,9 @@ TEST_F(GlTest, ChordsAndParabolasErrByWhatTheirFormulasSay) {
 Long share_of_pixel(const accuracy::Edge& edge, int x, int y) {
   const Long a = std::abs(Long(edge.normal.x)), b = std::abs(Long(edge.normal.y));
   // From the corner that is drawn first, both axes toward the line.
-  const Long corner_x = x - accuracy::kEdgeSide / 2 + (edge.normal.x < 0 ? 1 : 0),
-             corner_y = y - accuracy::kEdgeSide / 2 + (edge.normal.y < 0 ? 1 : 0);
+  constexpr int kHalf = accuracy::kEdgeSide / 2;
+  const Long corner_x = x - kHalf + (edge.normal.x < 0 ? 1 : 0),
+             corner_y = y - kHalf + (edge.normal.y < 0 ? 1 : 0);
   const Long d = edge.offset - (corner_x * edge.normal.x + corner_y * edge.normal.y);
   const auto half_square = [](Long t) { return t > 0.0L ? t * t / 2.0L : 0.0L; };
   return (half_square(d) - half_square(d - a) - half_square(d - b) + half_square(d - a - b)) / (a * b);
@@ -293,8 +294,8 @@ TEST_F(GlTest, SamplesErrByWhatTheirPlacesInThePixelSay) {
           if (share <= 1e-12L || share >= 1.0L - 1e-12L) continue;
           int drawn = 0;
           for (const auto& place : places) {
-            const dvec3 at(x - accuracy::kEdgeSide / 2 + double(place[0]),
-                           y - accuracy::kEdgeSide / 2 + double(place[1]), 0.0);
+            constexpr int kHalf = accuracy::kEdgeSide / 2;
+            const dvec3 at(x - kHalf + double(place[0]), y - kHalf + double(place[1]), 0.0);
             drawn += at.x * edge.normal.x + at.y * edge.normal.y < edge.offset ? 1 : 0;
           }
           second.add(100.0L * (Long(drawn) / samples - share));

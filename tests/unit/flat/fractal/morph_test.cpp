@@ -54,8 +54,8 @@ TEST(FractalMorph, ALevelIsWhollyTheNextOneWhereARingMayChange) {
     const double reach = 0.5 + 0.5 * kSlack, x = reach * unit(random), y = reach * unit(random);
     const int column = static_cast<int>(16 + 14 * unit(random)),
               row = static_cast<int>(16 + 14 * unit(random));
-    const double u = column + 0.5 + 0.5 * unit(random) - kBlocks / 2,
-                 v = row + 0.5 + 0.5 * unit(random) - kBlocks / 2;
+    const double u = column + 0.5 + 0.5 * unit(random) - 0.5 * kBlocks,
+                 v = row + 0.5 + 0.5 * unit(random) - 0.5 * kBlocks;
     const auto away = static_cast<float>(std::hypot(u - x, v - y));
     const int level = level_of(rings, kBlocks, column, row);
     if (level > 0) {
