@@ -37,8 +37,7 @@ struct ErrorBound {
 };
 /// @param fov_y_deg, aspect  of a pinhole camera
 /// @param axis  ErrorBound::axis
-ErrorBound error_bound(double pixels, double fov_y_deg, double aspect, int picture_height,
-                       const dvec3& axis = dvec3(0.0));
+ErrorBound error_bound(double pixels, double fov_y_deg, double aspect, int picture_height, const dvec3& axis);
 
 /// Pixels that the meshes of a patch's levels are off by on the screen at the most, seen from a place of the
 /// frame: the error of each quarter at its nearest point, from above only as much of it as stands across the

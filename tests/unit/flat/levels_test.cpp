@@ -155,7 +155,7 @@ TEST(Levels, NothingThatIsDrawnIsFartherOffOnTheScreenThanAskedFor) {
   for (int round = 0; round < 40; ++round) {
     const double x = (share(random) - 0.5) * 4000.0, y = (share(random) - 0.5) * 4000.0;
     const glm::dvec3 eye(x, y, terrain->z_at(x, y) + 5.0 + 3000.0 * share(random) * share(random));
-    const ErrorBound bound = error_bound(8.0, 60.0, 16.0 / 9.0, kHeight);
+    const ErrorBound bound = error_bound(8.0, 60.0, 16.0 / 9.0, kHeight, glm::dvec3(0.0));
     const std::vector<float> levels = patch_levels(*terrain, eye, bound, Morph::kGpu);
     coarse += static_cast<int>(std::count_if(levels.begin(), levels.end(), [](float l) { return l > 0.5f; }));
     const std::vector<double> drawn = surface_of(mesh_of(*terrain, levels), columns, rows);
