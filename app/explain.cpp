@@ -48,7 +48,7 @@ class Frame {
  public:
   Frame(const ExplainOptions& options, const Optics& optics, const Size& size,
         const globe::scene::Scene& scene, const std::shared_ptr<const globe::planet::Surface>& surface,
-        const std::optional<Region>& region)
+        const std::optional<FlatRegion>& region)
       : renderer(surface, render_settings(options.view), effects_of(scene, *surface, optics),
                  region_in_globe(region, scene, render_settings(options.view))),
         lens(optics, size.width, size.height, options.view.samples,
@@ -146,7 +146,7 @@ Plan plan_of(ExplainOptions options, const CLI::App& command) {
   const geo::Geodetic sunny = target_of(options.stand, scene);
   const auto surface = open_planet(view);
   const geo::Ellipsoid& ellipsoid = surface->ellipsoid();
-  const std::optional<Region> region = region_of(scene, surface, view.quiet || options.json);
+  const std::optional<FlatRegion> region = region_of(scene, surface, view.quiet || options.json);
   const Sunlight sun = sun_for(view, *surface, sunny);
   const double seconds = options.stand.moment_s;
   const globe::gl::Context context(view.device);

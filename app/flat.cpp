@@ -90,7 +90,7 @@ void add_flat_options(CLI::App& command, FlatOptions& options) {
   command.add_option("--pvs", options.pvs, "file made by globe flat pvs: patches it hides are not drawn");
 }
 
-flat::GeomipmapSettings settings_of(const FlatOptions& options, const Region& region) {
+flat::GeomipmapSettings settings_of(const FlatOptions& options, const FlatRegion& region) {
   flat::GeomipmapSettings settings;
   settings.error_px = options.error_px;
   settings.morph = options.morph_by == "off"   ? flat::Morph::kOff
@@ -113,7 +113,7 @@ flat::GeomipmapSettings settings_of(const FlatOptions& options, const Region& re
 
 /// A region, what draws it, and through what.
 struct Stage {
-  Region region;
+  FlatRegion region;
   Optics optics;
   Size size;
   Sunlight sun;
@@ -300,7 +300,7 @@ struct PvsOptions : ViewOptions {
 
 void write_pvs(const PvsOptions& options) {
   globe::refuse_existing(options.output, options.overwrite);
-  const Region region = open_region(options, options.region, std::nullopt);
+  const FlatRegion region = open_region(options, options.region, std::nullopt);
   Progress progress(progress_style(options.quiet, false));
   const flat::Visibility sets = flat::Visibility::compute(
       *region.terrain, [&](double share) { progress.show("looking around", share); });

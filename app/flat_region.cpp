@@ -127,7 +127,7 @@ HalfSize known_size(const converters::LocalGround& ground, const flat::TangentFr
   return widest;
 }
 
-Region region_of_map(const ViewOptions& options, const LocalRegionOptions& asked) {
+FlatRegion region_of_map(const ViewOptions& options, const LocalRegionOptions& asked) {
   Progress progress(progress_style(options.quiet, false));
   const auto ground = std::make_shared<converters::LocalGround>(
       converters::MapInput{options.planet}, geo::kWgs84, static_cast<std::size_t>(options.memory_mb) << 20,
@@ -160,7 +160,7 @@ Region region_of_map(const ViewOptions& options, const LocalRegionOptions& asked
     std::fprintf(stderr, "globe: warning: %s: %.3g %% of the map is void, filled from around\n",
                  options.planet.c_str(), 100.0 * ground->void_share());
   }
-  Region region;
+  FlatRegion region;
   region.terrain = std::make_shared<const flat::Terrain>(frame, grid, *grid.extent());
   return region;
 }
@@ -173,8 +173,8 @@ struct PartOfPlanet {
   std::optional<double> spacing_m;
 };
 
-Region part_of(const std::shared_ptr<const globe::planet::Surface>& surface, const PartOfPlanet& part,
-               ProgressStyle style) {
+FlatRegion part_of(const std::shared_ptr<const globe::planet::Surface>& surface, const PartOfPlanet& part,
+                   ProgressStyle style) {
   const HalfSize half{part.side_m / 2.0, part.side_m / 2.0};
   const double spacing = spacing_for(part.spacing_m, part.side_m / kPlanetPosts, half, part.name);
   const flat::TangentFrame frame(surface->ellipsoid(), part.center.lat_deg, part.center.lon_deg);
@@ -188,7 +188,7 @@ Region part_of(const std::shared_ptr<const globe::planet::Surface>& surface, con
       flat::sample_ground(frame, spacing, posts_within(half, spacing, part.name), heights, 0.005,
                           [&](double share) { progress.show("sampling heights", share); });
   progress.clear();
-  Region region;
+  FlatRegion region;
   region.terrain = std::make_shared<const flat::Terrain>(frame, grid, *grid.extent());
   region.body = surface->info().body;
   region.air = globe::render::has_air(surface->info());
@@ -209,8 +209,8 @@ Region part_of(const std::shared_ptr<const globe::planet::Surface>& surface, con
   return region;
 }
 
-Region region_of_planet(const ViewOptions& options, const LocalRegionOptions& asked,
-                        const std::optional<geo::Geodetic>& around) {
+FlatRegion region_of_planet(const ViewOptions& options, const LocalRegionOptions& asked,
+                            const std::optional<geo::Geodetic>& around) {
   const auto center = asked.center.empty() ? around : center_of(asked);
   if (!center) {
     throw globe::UsageError(options.planet, "nothing says which part of the planet",
@@ -223,8 +223,8 @@ Region region_of_planet(const ViewOptions& options, const LocalRegionOptions& as
 }
 
 /// Around the lattice's origin, wherever on the ellipsoid that is.
-Region region_of_fractal(const ViewOptions& options, const LocalRegionOptions& asked,
-                         const std::optional<geo::Geodetic>& around) {
+FlatRegion region_of_fractal(const ViewOptions& options, const LocalRegionOptions& asked,
+                             const std::optional<geo::Geodetic>& around) {
   flat::fractal::Settings settings = fractal_settings(asked.fractal, options.planet);
   if (!asked.spacing.empty()) {
     throw globe::UsageError("--spacing", "fractal ground has posts 1/2^iterations of an area apart",
@@ -242,7 +242,7 @@ Region region_of_fractal(const ViewOptions& options, const LocalRegionOptions& a
                             "give a smaller --side or fewer --iterations");
   }
   const flat::fractal::FractalSource source(settings);
-  Region region;
+  FlatRegion region;
   region.terrain =
       std::make_shared<const flat::Terrain>(flat::TangentFrame(geo::kWgs84, center.lat_deg, center.lon_deg),
                                             source, posts_within(half, spacing, options.planet));
@@ -267,15 +267,16 @@ void add_local_region_options(CLI::App& command, LocalRegionOptions& options) {
   add_fractal_options(command, options.fractal);
 }
 
-Region open_region(const ViewOptions& options, const LocalRegionOptions& region,
-                   const std::optional<geo::Geodetic>& around) {
+FlatRegion open_region(const ViewOptions& options, const LocalRegionOptions& region,
+                       const std::optional<geo::Geodetic>& around) {
   if (fractal_seed(options.planet)) return region_of_fractal(options, region, around);
   if (names_planet(options.planet)) return region_of_planet(options, region, around);
   return region_of_map(options, region);
 }
 
-std::optional<Region> region_of(const std::optional<globe::scene::Scene>& scene,
-                                const std::shared_ptr<const globe::planet::Surface>& surface, bool quiet) {
+std::optional<FlatRegion> region_of(const std::optional<globe::scene::Scene>& scene,
+                                    const std::shared_ptr<const globe::planet::Surface>& surface,
+                                    bool quiet) {
   if (!scene || !scene->region) return std::nullopt;
   const globe::scene::Region& asked = *scene->region;
   return part_of(surface, {scene->file.string() + ": region", asked.center, asked.side_m, asked.spacing_m},
@@ -283,7 +284,7 @@ std::optional<Region> region_of(const std::optional<globe::scene::Scene>& scene,
 }
 
 std::unique_ptr<globe::render::RegionRenderer> region_in_globe(
-    const std::optional<Region>& region, const std::optional<globe::scene::Scene>& scene,
+    const std::optional<FlatRegion>& region, const std::optional<globe::scene::Scene>& scene,
     const globe::render::RenderSettings& settings) {
   if (!region || !scene->region) return nullptr;
   const globe::scene::Region& asked = *scene->region;

@@ -132,7 +132,7 @@ class Picker {
   render::Camera camera_;
   double near_m_ = 0;
   std::optional<globe::clipmap::DrawnSurface> surface_;
-  std::optional<Region> region_;
+  std::optional<FlatRegion> region_;
   render::Room room_;
   std::optional<flat::DrawnRegion> drawn_region_;
 };

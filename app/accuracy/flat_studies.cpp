@@ -14,7 +14,6 @@ namespace {
 
 namespace flat = globe::flat;
 
-constexpr PictureSize kPicture;
 constexpr double kDefaultError = 1.0;  ///< app/flat.cpp
 const std::string kRegion = "8 km of fractal hills, 513x513 posts";
 

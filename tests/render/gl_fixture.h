@@ -29,6 +29,11 @@ class GlEnvironment : public testing::Environment {
 inline GlEnvironment* const gl_environment =
     static_cast<GlEnvironment*>(testing::AddGlobalTestEnvironment(new GlEnvironment));
 
+/// For those who ask for a share of the context.
+inline std::shared_ptr<globe::gl::Context> lent(globe::gl::Context& context) {
+  return {&context, [](globe::gl::Context*) {}};
+}
+
 /// True when EGL offers no display of any kind: there is nothing to test on. A display without a usable
 /// context is a failure, not an absence.
 inline bool egl_is_absent() {

@@ -20,10 +20,10 @@ namespace geo = globe::geo;
 namespace render = globe::render;
 using globe::gl::Framebuffer;
 
-constexpr int kWidth = 320, kHeight = 180;
-constexpr glm::vec3 kMagenta(1.0f, 0.0f, 1.0f);
+constexpr int kRegionWidth = 320, kRegionHeight = 180;
+constexpr glm::vec3 kRegionMagenta(1.0f, 0.0f, 1.0f);
 constexpr double kLat = -43.43, kLon = -106.39;  // mountains of the built-in planet
-const glm::dvec3 kMorning(geo::morning_sun(kLon));
+const glm::dvec3 kRegionMorning(geo::morning_sun(kLon));
 
 /// A part of the built-in planet's own ground.
 std::shared_ptr<const Terrain> part_of(const std::shared_ptr<const globe::planet::Surface>& surface,
@@ -47,7 +47,7 @@ class GlobeRegionTest : public GlTest {
   render::GlobeRenderer globe_with(const std::shared_ptr<const Terrain>& terrain,
                                    const GroundSettings& ground = {}, bool sky = false) const {
     render::RenderSettings settings;
-    if (!sky) settings.background = kMagenta;
+    if (!sky) settings.background = kRegionMagenta;
     return {surface_,
             settings,
             {},
@@ -62,7 +62,7 @@ class GlobeRegionTest : public GlTest {
     for (int k = 0; k < 4; ++k)  // the nearer, the finer the ground
       place.h_m += above_m - globe.height_above_ground(geo::ecef_from_geodetic(surface_->ellipsoid(), place));
     return render::make_camera(surface_->ellipsoid(), place, heading_deg, pitch_deg, 60.0,
-                               static_cast<double>(kWidth) / kHeight);
+                               static_cast<double>(kRegionWidth) / kRegionHeight);
   }
 
   static std::size_t holes(const std::vector<std::uint8_t>& rgba) {
@@ -82,12 +82,12 @@ TEST_F(GlobeRegionTest, ItsRimShowsNoCrackFromAnywhere) {
     GroundSettings ground;
     ground.error_px = error_px;
     render::GlobeRenderer globe = globe_with(terrain, ground);
-    const Framebuffer frame(kWidth, kHeight, {.samples = 4});
+    const Framebuffer frame(kRegionWidth, kRegionHeight, {.samples = 4});
     for (const double above : {3.0, 60.0, 900.0, 15'000.0, 400'000.0}) {
       for (const glm::dvec2& at : {glm::dvec2(half, 0.3 * half), {-half, -half}, {0.2 * half, 1.1 * half}}) {
         // Looking down along the rim: no sky in view.
         const render::Camera camera = over(globe, terrain->frame(), at, above, 40.0 + above, -75.0);
-        globe.draw(camera, kMorning, true, frame);
+        globe.draw(camera, kRegionMorning, true, frame);
         frame.resolve();
         EXPECT_EQ(holes(frame.read_rgba8()), 0u) << error_px << ' ' << above << ' ' << at.x << ',' << at.y;
       }
@@ -100,11 +100,12 @@ std::vector<dvec3> places(const Framebuffer& frame, const render::Camera& camera
                           const TangentFrame& local) {
   const auto depth = frame.read_depth();
   std::vector<dvec3> result;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const double right = (2.0 * (x + 0.5) / kWidth - 1.0) * camera.tan_x();
-      const double up = (1.0 - 2.0 * (y + 0.5) / kHeight) * camera.tan_y();
-      const double along = near_m / static_cast<double>(depth[static_cast<std::size_t>(y * kWidth + x)]);
+  for (int y = 0; y < kRegionHeight; ++y) {
+    for (int x = 0; x < kRegionWidth; ++x) {
+      const double right = (2.0 * (x + 0.5) / kRegionWidth - 1.0) * camera.tan_x();
+      const double up = (1.0 - 2.0 * (y + 0.5) / kRegionHeight) * camera.tan_y();
+      const double along =
+          near_m / static_cast<double>(depth[static_cast<std::size_t>(y * kRegionWidth + x)]);
       result.push_back(local.local_from_ecef(
           camera.position + along * (camera.forward + right * camera.right + up * camera.up)));
     }
@@ -119,15 +120,15 @@ TEST_F(GlobeRegionTest, TheGroundHasNoStepAtTheRim) {
   const render::Room room = room_of(*terrain);
   const double half = room.high.x;
   render::GlobeRenderer globe = globe_with(terrain);
-  const Framebuffer frame(kWidth, kHeight);
+  const Framebuffer frame(kRegionWidth, kRegionHeight);
   for (const double above : {5.0, 50.0, 500.0, 10'000.0}) {
     const render::Camera camera = over(globe, terrain->frame(), {half, 0.2 * half}, above, 10.0, -80.0);
-    globe.draw(camera, kMorning, true, frame);
+    globe.draw(camera, kRegionMorning, true, frame);
     const double near_m = render::near_distance(surface_->ellipsoid(), globe.nearest_drawn(camera.position));
     const std::vector<dvec3> at = places(frame, camera, near_m, terrain->frame());
     int pairs = 0;
     for (std::size_t k = 0; k + 1 < at.size(); ++k) {
-      if (k % kWidth == kWidth - 1 || (at[k].x < half) == (at[k + 1].x < half)) continue;
+      if (k % kRegionWidth == kRegionWidth - 1 || (at[k].x < half) == (at[k + 1].x < half)) continue;
       ++pairs;
       const dvec3 step = at[k + 1] - at[k];
       EXPECT_LT(std::abs(step.z), 2.0 * std::hypot(step.x, step.y) + 0.002 * above) << above;
@@ -140,18 +141,18 @@ TEST_F(GlobeRegionTest, TheGroundHasNoStepAtTheRim) {
 TEST_F(GlobeRegionTest, ItShowsTheGlobesOwnGround) {
   const auto terrain = part_of(surface_, 8, 30.0, kLat, kLon);
   render::GlobeRenderer globe = globe_with(terrain), plain = globe_with(nullptr);
-  const Framebuffer frame(kWidth, kHeight), other(kWidth, kHeight);
+  const Framebuffer frame(kRegionWidth, kRegionHeight), other(kRegionWidth, kRegionHeight);
   for (const double above : {5'000.0, 20'000.0, 100'000.0}) {
     const render::Camera camera =
         over(globe, terrain->frame(), {0.8 * terrain->x_m(128), 0.0}, above, 10.0, -90.0);
-    globe.draw(camera, kMorning, true, frame);
-    plain.draw(camera, kMorning, true, other);
+    globe.draw(camera, kRegionMorning, true, frame);
+    plain.draw(camera, kRegionMorning, true, other);
     const double near_a = render::near_distance(surface_->ellipsoid(), globe.nearest_drawn(camera.position));
     const double near_b = render::near_distance(surface_->ellipsoid(), plain.nearest_drawn(camera.position));
     const std::vector<dvec3> a = places(frame, camera, near_a, terrain->frame());
     const std::vector<dvec3> b = places(other, camera, near_b, terrain->frame());
     // Straight down a difference of height is seen at an angle, at the picture's corner the largest.
-    const double pixels = 0.5 * kHeight / std::tan(std::numbers::pi / 6.0) * 1.2;
+    const double pixels = 0.5 * kRegionHeight / std::tan(std::numbers::pi / 6.0) * 1.2;
     std::vector<double> off;
     for (std::size_t k = 0; k < a.size(); ++k) off.push_back(pixels * std::abs(a[k].z - b[k].z) / above);
     std::sort(off.begin(), off.end());
@@ -165,11 +166,12 @@ TEST_F(GlobeRegionTest, ItsBordersAreWhereTheGlobesGroundIsDrawn) {
   auto made = std::make_unique<GlobeRegion>(terrain, GroundKnowledge{}, GroundSettings{});
   const GlobeRegion& region = *made;
   render::RenderSettings settings;
-  settings.background = kMagenta;
+  settings.background = kRegionMagenta;
   render::GlobeRenderer globe(surface_, settings, {}, std::move(made));
-  const Framebuffer frame(kWidth, kHeight);
+  const Framebuffer frame(kRegionWidth, kRegionHeight);
   for (const double above : {20.0, 2'000.0, 100'000.0}) {
-    globe.draw(over(globe, terrain->frame(), {1000.0, 500.0}, above, 0.0, -60.0), kMorning, true, frame);
+    globe.draw(over(globe, terrain->frame(), {1000.0, 500.0}, above, 0.0, -60.0), kRegionMorning, true,
+               frame);
     const Rim& rim = region.rim();
     EXPECT_GT(rim.outside[kWest].points().size(), 1u);
     // Lifts are the difference between two meshes of one ground: small where both are fine.
@@ -187,18 +189,18 @@ TEST_F(GlobeRegionTest, TheCpuKnowsTheLiftsOfTheShader) {
   auto made = std::make_unique<GlobeRegion>(terrain, GroundKnowledge{}, ground);
   const GlobeRegion& region = *made;
   render::RenderSettings settings;
-  settings.background = kMagenta;
+  settings.background = kRegionMagenta;
   render::GlobeRenderer globe(surface_, settings, {}, std::move(made));
-  const Framebuffer frame(kWidth, kHeight);
+  const Framebuffer frame(kRegionWidth, kRegionHeight);
   const double half = terrain->x_m(terrain->posts().columns - 1);
   const render::Camera camera = over(globe, terrain->frame(), {0.9 * half, 0.9 * half}, 500.0, 0.0, -90.0);
-  globe.draw(camera, kMorning, true, frame);
+  globe.draw(camera, kRegionMorning, true, frame);
   const double near_m = render::near_distance(surface_->ellipsoid(), globe.nearest_drawn(camera.position));
   const std::vector<dvec3> seen = places(frame, camera, near_m, terrain->frame());
   int compared = 0;
-  for (int y = 4; y < kHeight; y += 8) {
-    for (int x = 4; x < kWidth; x += 8) {
-      const dvec3& at = seen[static_cast<std::size_t>(y * kWidth + x)];
+  for (int y = 4; y < kRegionHeight; y += 8) {
+    for (int x = 4; x < kRegionWidth; x += 8) {
+      const dvec3& at = seen[static_cast<std::size_t>(y * kRegionWidth + x)];
       const double column = (at.x - terrain->x_m(0)) / terrain->spacing_m();
       const double row = (at.y - terrain->y_m(0)) / terrain->spacing_m();
       if (!(column > 0.0 && row > 0.0 && column < terrain->posts().columns - 1 &&
@@ -220,22 +222,22 @@ TEST_F(GlobeRegionTest, TheCpuKnowsTheLiftsOfTheShader) {
 TEST_F(GlobeRegionTest, ACameraOverItStandsAboveItsGroundAndTheGlobeUnderItIsLeftCoarse) {
   const auto terrain = part_of(surface_, 8, 30.0, kLat, kLon);
   render::GlobeRenderer globe = globe_with(terrain), plain = globe_with(nullptr);
-  const Framebuffer frame(kWidth, kHeight);
+  const Framebuffer frame(kRegionWidth, kRegionHeight);
   const render::Camera camera = over(globe, terrain->frame(), {0.0, 0.0}, 2.0, 0.0, -20.0);
   EXPECT_NEAR(globe.height_above_ground(camera.position), 2.0, 1e-6);
-  globe.draw(camera, kMorning, true, frame);
-  plain.draw(camera, kMorning, true, frame);
+  globe.draw(camera, kRegionMorning, true, frame);
+  plain.draw(camera, kRegionMorning, true, frame);
   EXPECT_LT(globe.frame_stats().finest_level, plain.frame_stats().finest_level - 6);
 }
 
 TEST_F(GlobeRegionTest, OutOfViewItChangesNothing) {
   const auto terrain = part_of(surface_, 4, 30.0, kLat, kLon);
   render::GlobeRenderer globe = globe_with(terrain, {}, true), plain = globe_with(nullptr, {}, true);
-  const Framebuffer a(kWidth, kHeight), b(kWidth, kHeight);
+  const Framebuffer a(kRegionWidth, kRegionHeight), b(kRegionWidth, kRegionHeight);
   const TangentFrame far(surface_->ellipsoid(), 46.0, 7.0);
   const render::Camera camera = over(plain, far, {0.0, 0.0}, 400.0, 40.0, -15.0);
-  globe.draw(camera, kMorning, true, a);
-  plain.draw(camera, kMorning, true, b);
+  globe.draw(camera, kRegionMorning, true, a);
+  plain.draw(camera, kRegionMorning, true, b);
   EXPECT_EQ(a.read_rgba8(), b.read_rgba8());
 }
 
@@ -243,10 +245,11 @@ TEST_F(GlobeRegionTest, LiesAcrossTheAntimeridianAndAtAPoleAsAnywhere) {
   for (const auto& [lat, lon] : {std::pair(-16.5, 180.0), std::pair(89.95, 30.0), std::pair(0.0, 90.0)}) {
     const auto terrain = part_of(surface_, 4, 30.0, lat, lon);
     render::GlobeRenderer globe = globe_with(terrain);
-    const Framebuffer frame(kWidth, kHeight, {.samples = 4});
+    const Framebuffer frame(kRegionWidth, kRegionHeight, {.samples = 4});
     const double half = terrain->x_m(terrain->posts().columns - 1);
     for (const double above : {100.0, 5'000.0}) {
-      globe.draw(over(globe, terrain->frame(), {half, half}, above, 200.0, -70.0), kMorning, true, frame);
+      globe.draw(over(globe, terrain->frame(), {half, half}, above, 200.0, -70.0), kRegionMorning, true,
+                 frame);
       frame.resolve();
       EXPECT_EQ(holes(frame.read_rgba8()), 0u) << lat << ' ' << above;
     }

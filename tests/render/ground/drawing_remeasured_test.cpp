@@ -38,11 +38,6 @@ accuracy::Scope scope_in(globe::gl::Context& context) {
   return {false, {&context, [](globe::gl::Context*) {}}, views::builtin_planet()};
 }
 
-void expect_agreement(const accuracy::ErrorFigure& reported, const Second& second, const std::string& name) {
-  EXPECT_NEAR(reported.max / static_cast<double>(second.max()), 1.0, 0.05) << name;
-  EXPECT_NEAR(reported.rms / static_cast<double>(second.rms()), 1.0, 0.05) << name;
-}
-
 /// The triangles that the GPU makes of the whole ground, from the camera.
 struct Mesh {
   std::vector<accuracy::ProbeVertex> corners;
@@ -306,7 +301,8 @@ TEST_F(GlTest, SamplesErrByWhatTheirPlacesInThePixelSay) {
   }
 }
 
-constexpr int kDomeSide = 512, kFiner = 6;  ///< pixels of a dome's picture, and rays in one of them, a side
+constexpr int kDomeSide = 512,
+              kRaysAcross = 6;  ///< pixels of a dome's picture, and rays in one of them, a side
 
 /// Colours seen from a place, by five pictures of a pinhole camera 90 degrees wide, the middle one ahead.
 class Pictures {
@@ -367,18 +363,18 @@ TEST_F(GlTest, DomesErrByWhatPicturesOfAPinholeCameraSay) {
   {
     const Pictures pictures(camera, sun);
     tbb::parallel_for(std::size_t{0}, truth.size(), [&](std::size_t k) {
-      for (int part = 0; part < kFiner * kFiner; ++part) {
+      for (int part = 0; part < kRaysAcross * kRaysAcross; ++part) {
         const auto place = [](std::size_t pixel, int of) {
-          return (static_cast<double>(pixel) + (of + 0.5) / kFiner) * 2.0 / kDomeSide - 1.0;
+          return (static_cast<double>(pixel) + (of + 0.5) / kRaysAcross) * 2.0 / kDomeSide - 1.0;
         };
-        const double x = place(k % kDomeSide, part % kFiner);
-        const double y = -place(k / kDomeSide, part / kFiner);
+        const double x = place(k % kDomeSide, part % kRaysAcross);
+        const double y = -place(k / kDomeSide, part / kRaysAcross);
         const double radius = std::hypot(x, y);
         const double turn = radius * std::numbers::pi / 2.0;
         if (radius > 1.0) continue;  // black
         const auto color =
             pictures.at({x / radius * std::sin(turn), y / radius * std::sin(turn), std::cos(turn)});
-        for (std::size_t c = 0; c < 3; ++c) truth[k][c] += color[c] / (kFiner * kFiner);
+        for (std::size_t c = 0; c < 3; ++c) truth[k][c] += color[c] / (kRaysAcross * kRaysAcross);
       }
     });
   }
