@@ -21,8 +21,8 @@ namespace planet = globe::planet;
 using globe::geo::Geodetic;
 using globe::htm::dvec3;
 
-/// Bytes that the ground asked about keeps: what all questions of a study need at one level, and more.
-constexpr std::size_t kGroundCache = planet::Surface::kDefaultCache / 4;
+/// Bytes that the ground asked about keeps: what the questions of a study need, and more.
+constexpr std::size_t kGroundCache = planet::Surface::kDefaultCache / 6;
 
 std::string text_of(const PlacePair& pair) {
   char text[96];
