@@ -25,7 +25,7 @@ constexpr int kPlaces = 100;
 /// A region at a place, made anew for every cover, as a query does it.
 using MakeRegion = std::function<std::unique_ptr<const Region>(const Geodetic&)>;
 
-std::vector<Geodetic> random_places() {
+std::vector<Geodetic> middles_of_regions() {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::vector<Geodetic> places(kPlaces);
@@ -75,7 +75,7 @@ BenchmarkEntry entry(const std::string& name, const MakeRegion& make, const Cove
   return {name, [=] {
             return Benchmark{
                 name, kPlaces,
-                [places = random_places(), make, settings, ranges = std::make_shared<std::size_t>(0)] {
+                [places = middles_of_regions(), make, settings, ranges = std::make_shared<std::size_t>(0)] {
                   for (const Geodetic& place : places)
                     *ranges += globe::htm::cover(*make(place), settings).size();
                 }};

@@ -20,8 +20,8 @@ namespace flat = globe::flat;
 namespace geo = globe::geo;
 namespace render = globe::render;
 
-constexpr int kWidth = 1280;
-constexpr int kHeight = 720;
+constexpr int kFlatWidth = 1280;
+constexpr int kFlatHeight = 720;
 constexpr int kPatches = 16;  ///< a side: Wagner's 257 x 257 posts
 constexpr double kSpacing = 30.0;
 constexpr int kLevel = 18;  ///< of the built-in planet's ground
@@ -49,20 +49,20 @@ struct FlatWorld {
     const double half = 0.5 * kPatches * flat::kPatchCells * kSpacing;
     const double y = half * (-0.95 + 1.4 * (round % rounds) / rounds);
     const geo::Geodetic place = terrain->frame().geodetic_from_local({0.0, y, terrain->z_at(0.0, y) + 60.0});
-    return render::make_camera(surface->ellipsoid(), place, 0.0, -8.0, 60.0, double(kWidth) / kHeight);
+    return render::make_camera(surface->ellipsoid(), place, 0.0, -8.0, 60.0, double(kFlatWidth) / kFlatHeight);
   }
 
   int rounds;
   globe::gl::Context context;
   std::shared_ptr<const globe::planet::Surface> surface;
   std::shared_ptr<const flat::Terrain> terrain;
-  std::vector<glm::vec3> colors;
+  std::vector<glm::vec4> colors;
   glm::dvec3 sun{1, 0, 0};
 };
 
 struct FlatRun {
   FlatRun(std::shared_ptr<FlatWorld> shared, const flat::GeomipmapSettings& settings)
-      : world(std::move(shared)), renderer(world->terrain, world->colors, settings), target(kWidth, kHeight) {
+      : world(std::move(shared)), renderer(world->terrain, world->colors, settings), target(kFlatWidth, kFlatHeight) {
     for (int k = 0; k < 3; ++k) renderer.draw(world->camera(k), world->sun, true, target);
     glFinish();
   }

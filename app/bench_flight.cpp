@@ -23,8 +23,8 @@ namespace geo = globe::geo;
 using globe::clipmap::Positions;
 using globe::clipmap::Settings;
 
-constexpr int kWidth = 1280;
-constexpr int kHeight = 720;
+constexpr int kFlightWidth = 1280;
+constexpr int kFlightHeight = 720;
 
 /// The built-in planet and a flight over it from 20,000 km to 200 m, one frame a round.
 struct World {
@@ -41,7 +41,7 @@ struct World {
     const auto point = path.at(static_cast<double>(round % rounds) / (rounds - 1));
     const geo::Geodetic place{view.place.lat_deg, view.place.lon_deg, point.height_m + view.place.h_m};
     return render::make_camera(surface->ellipsoid(), place, point.heading_deg, point.pitch_deg, 60.0,
-                               double(kWidth) / kHeight);
+                               double(kFlightWidth) / kFlightHeight);
   }
 
   int rounds;
@@ -56,7 +56,7 @@ struct World {
 /// budget of `globe fly`.
 struct FlightRun {
   FlightRun(std::shared_ptr<World> shared, const Settings& settings)
-      : world(std::move(shared)), renderer(world->surface, ground(settings)), target(kWidth, kHeight) {
+      : world(std::move(shared)), renderer(world->surface, ground(settings)), target(kFlightWidth, kFlightHeight) {
     renderer.warm_up(target);
     renderer.draw(world->camera(0), world->sun, true, target);
     glFinish();
@@ -122,7 +122,7 @@ struct RawRun {
       per_round.push_back(rounded);
       if (!raw.contains(rounded))
         raw[rounded] = std::make_unique<RawGl>(
-            RawGlLoad{.width = kWidth, .height = kHeight, .triangles_on_screen = rounded});
+            RawGlLoad{.width = kFlightWidth, .height = kFlightHeight, .triangles_on_screen = rounded});
       (*raw[rounded])();
     }
   }
@@ -146,7 +146,7 @@ Benchmark draw_list_benchmark(const std::string& name, const std::shared_ptr<Wor
             const render::GlobeRenderer& renderer = flight->renderer;
             render::make_draw_list(renderer.clipmap_settings(), renderer.state(), renderer.textures(),
                                    flight->world->surface->ellipsoid(), camera,
-                                   renderer.state().target.finest, 0.0f, true);
+                                   {renderer.state().target.finest, 0.0f}, true);
           }};
 }
 

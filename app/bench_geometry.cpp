@@ -174,14 +174,14 @@ Benchmark ground_tile(int level) {
 
 /// Conversion of a height map of 2160x1080 to level 10, bilinear, on all cores: source pixels a second.
 Benchmark convert_bilinear() {
-  constexpr int kWidth = 2160;
-  constexpr int kHeight = 1080;
+  constexpr int kMapWidth = 2160;
+  constexpr int kMapHeight = 1080;
   const auto folder = std::make_shared<const globe::TemporaryFolder>("globe-bench");
-  std::vector<float> heights(static_cast<std::size_t>(kWidth) * kHeight);
+  std::vector<float> heights(static_cast<std::size_t>(kMapWidth) * kMapHeight);
   for (std::size_t k = 0; k < heights.size(); ++k)
     heights[k] = static_cast<float>(std::sin(static_cast<double>(k) * 1e-3) * 3000.0);
   auto output = OIIO::ImageOutput::create("map.tif");
-  output->open((*folder / "map.tif").string(), OIIO::ImageSpec(kWidth, kHeight, 1, OIIO::TypeDesc::FLOAT));
+  output->open((*folder / "map.tif").string(), OIIO::ImageSpec(kMapWidth, kMapHeight, 1, OIIO::TypeDesc::FLOAT));
   output->write_image(OIIO::TypeDesc::FLOAT, heights.data());
   output->close();
   converters::ConvertOptions options;
@@ -193,7 +193,7 @@ Benchmark convert_bilinear() {
   options.overwrite = true;
   const converters::ConvertListener quiet{[](const std::string&) {}, [](const std::string&) {},
                                           [](const std::string&, double) {}};
-  return {"convert.bilinear", double(kWidth) * kHeight, [=] {
+  return {"convert.bilinear", double(kMapWidth) * kMapHeight, [=] {
             static_cast<void>(folder);
             converters::convert(options, quiet);
           }};

@@ -24,7 +24,7 @@ namespace {
 constexpr int kMaxConvertLevel = 20;
 
 /// The command line as it was typed.
-struct Arguments {
+struct ConvertArguments {
   std::vector<std::string> heights;
   std::vector<std::string> colors;
   std::string planet;
@@ -47,7 +47,7 @@ struct Arguments {
   std::string progress;
 };
 
-converters::ConvertOptions options_from(const Arguments& arguments) {
+converters::ConvertOptions options_from(const ConvertArguments& arguments) {
   converters::ConvertOptions options;
   options.heights = maps_of(arguments.heights);
   options.colors = maps_of(arguments.colors);
@@ -91,7 +91,7 @@ void convert_with_mpi(converters::ConvertOptions options, const converters::Conv
   }
 }
 
-void convert(const Arguments& arguments) {
+void convert(const ConvertArguments& arguments) {
   const converters::ConvertOptions options = options_from(arguments);
   Progress progress(progress_style(arguments.quiet, arguments.progress == "json"));
   const converters::ConvertListener listener = listener_of(progress, arguments.quiet);
@@ -112,7 +112,7 @@ void convert(const Arguments& arguments) {
 
 void add_convert(CLI::App& program, int& exit_status) {
   static_cast<void>(exit_status);
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ConvertArguments>();
   CLI::App* command = program.add_subcommand("convert", "Make a planet of maps");
   command->add_option(
       "heights", arguments->heights,

@@ -13,6 +13,7 @@
 
 #include "app/bench.h"
 #include "app/commands.h"
+#include "app/flat_region.h"
 #include "app/parse_options.h"
 #include "app/progress.h"
 #include "app/scene_argument.h"
@@ -46,8 +47,10 @@ struct ExplainOptions {
 class Frame {
  public:
   Frame(const ExplainOptions& options, const Optics& optics, const Size& size,
-        const globe::scene::Scene& scene, const std::shared_ptr<const globe::planet::Surface>& surface)
-      : renderer(surface, render_settings(options.view), effects_of(scene, *surface, optics)),
+        const globe::scene::Scene& scene, const std::shared_ptr<const globe::planet::Surface>& surface,
+        const std::optional<FlatRegion>& region)
+      : renderer(surface, render_settings(options.view), effects_of(scene, *surface, optics),
+                 region_in_globe(region, scene, render_settings(options.view))),
         lens(optics, size.width, size.height, options.view.samples,
              render_settings(options.view).background) {}
 
@@ -143,12 +146,13 @@ Plan plan_of(ExplainOptions options, const CLI::App& command) {
   const geo::Geodetic sunny = target_of(options.stand, scene);
   const auto surface = open_planet(view);
   const geo::Ellipsoid& ellipsoid = surface->ellipsoid();
+  const std::optional<FlatRegion> region = region_of(scene, surface, view.quiet || options.json);
   const Sunlight sun = sun_for(view, *surface, sunny);
   const double seconds = options.stand.moment_s;
   const globe::gl::Context context(view.device);
 
   Plan plan;
-  Frame whole(options, optics, size, *scene, surface);
+  Frame whole(options, optics, size, *scene, surface, region);
   const auto above = [&](const glm::dvec3& at) { return whole.renderer.height_above_ground(at); };
   const Standpoint stand =
       standpoint(options.stand, view, scene, surface, render_settings(view).max_level, above);
@@ -167,6 +171,19 @@ Plan plan_of(ExplainOptions options, const CLI::App& command) {
                                     [&](const auto& effect) { return effect.name == state.name; });
     plan.effects.push_back({state, asked->line, {}, {}});
   }
+  const auto measured_beside_whole = [&](const globe::scene::Scene& other) {
+    Frame frame(options, optics, size, other, surface, region);
+    return times_of({[&] { whole.draw(camera, sun, seconds); }, [&] { frame.draw(camera, sun, seconds); }},
+                    options.rounds);
+  };
+  if (const render::RegionRenderer* drawn = whole.renderer.region()) {
+    plan.region = {drawn->patches(), drawn->triangles(), drawn->gpu_bytes(), {}, {}};
+    globe::scene::Scene other = *scene;
+    other.region.reset();
+    const std::vector<Time> times = measured_beside_whole(other);
+    plan.region->with = times[0];
+    plan.region->without = times[1];
+  }
   if (plan.effects.empty()) {
     plan.all = plan.none = times_of({[&] { whole.draw(camera, sun, seconds); }}, options.rounds).front();
     return plan;
@@ -174,7 +191,7 @@ Plan plan_of(ExplainOptions options, const CLI::App& command) {
 
   Progress progress(progress_style(view.quiet, false));
   {
-    Frame small(options, {}, {kSmallWidth, kSmallHeight}, *scene, surface);
+    Frame small(options, {}, {kSmallWidth, kSmallHeight}, *scene, surface, region);
     HeightSearch heights(geo::small_body_scale(ellipsoid), [&](double above_m) {
       progress.show("trying heights", std::log(above_m / kLowest) / std::log(kHighest / kLowest));
       geo::Geodetic place = stand.place;
@@ -190,11 +207,6 @@ Plan plan_of(ExplainOptions options, const CLI::App& command) {
     for (std::size_t k = 0; k < plan.effects.size(); ++k) plan.effects[k].active = heights.stretches(k);
   }
 
-  const auto measured_beside_whole = [&](const globe::scene::Scene& other) {
-    Frame frame(options, optics, size, other, surface);
-    return times_of({[&] { whole.draw(camera, sun, seconds); }, [&] { frame.draw(camera, sun, seconds); }},
-                    options.rounds);
-  };
   globe::scene::Scene bare = *scene;
   bare.effects.clear();
   const std::vector<Time> ends = measured_beside_whole(bare);

@@ -27,7 +27,7 @@ constexpr int kLeastMemory_mb = 256;
 constexpr std::size_t kEnoughBytes = std::size_t{1} << 30;  ///< of a cache
 
 /// The command line as it was typed.
-struct Arguments {
+struct ExportArguments {
   std::string planet;
   std::string output;
   std::string layer;
@@ -74,7 +74,7 @@ std::pair<double, double> parse_range(const std::string& text) {
   return {ends[0], ends[1]};
 }
 
-converters::ExportOptions options_from(const Arguments& arguments) {
+converters::ExportOptions options_from(const ExportArguments& arguments) {
   static const std::map<std::string, converters::Sampling> filters{
       {"nearest", converters::Sampling::kNearest},
       {"linear", converters::Sampling::kLinear},
@@ -98,7 +98,7 @@ converters::ExportOptions options_from(const Arguments& arguments) {
 }
 
 /// A mesh is a part of the planet, of heights, as its level has them.
-void require_mesh_options(const Arguments& arguments) {
+void require_mesh_options(const ExportArguments& arguments) {
   if (arguments.extent.empty()) {
     throw UsageError(arguments.output, "a mesh shows a part of the planet", "give --extent W,S,E,N");
   }
@@ -110,7 +110,7 @@ void require_mesh_options(const Arguments& arguments) {
   }
 }
 
-void run(const Arguments& arguments) {
+void run(const ExportArguments& arguments) {
   converters::ExportOptions options = options_from(arguments);
   const bool is_mesh = options.output.extension() == ".glb";
   if (is_mesh) require_mesh_options(arguments);
@@ -135,7 +135,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_export(CLI::App& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command = program.add_subcommand("export", "Make a latitude-longitude map of a planet");
   command->add_option("PLANET", arguments->planet, "folder made by globe convert, or procedural[:SEED]")
       ->required();

@@ -90,7 +90,7 @@ void add_flat_options(CLI::App& command, FlatOptions& options) {
   command.add_option("--pvs", options.pvs, "file made by globe flat pvs: patches it hides are not drawn");
 }
 
-flat::GeomipmapSettings settings_of(const FlatOptions& options, const Region& region) {
+flat::GeomipmapSettings settings_of(const FlatOptions& options, const FlatRegion& region) {
   flat::GeomipmapSettings settings;
   settings.error_px = options.error_px;
   settings.morph = options.morph_by == "off"   ? flat::Morph::kOff
@@ -113,7 +113,7 @@ flat::GeomipmapSettings settings_of(const FlatOptions& options, const Region& re
 
 /// A region, what draws it, and through what.
 struct Stage {
-  Region region;
+  FlatRegion region;
   Optics optics;
   Size size;
   Sunlight sun;
@@ -171,11 +171,35 @@ Start start_of(const FlatOptions& options, const std::optional<globe::scene::Sce
   return start;
 }
 
+/// Takes a scene's region into the options that were not given.
+void take_region(const CLI::App& command, const globe::scene::Region& region, FlatOptions& options) {
+  const auto is_given = [&](const char* option) { return command.get_option(option)->count() > 0; };
+  char text[96];
+  if (!is_given("--center")) {
+    std::snprintf(text, sizeof text, "%.12f,%.12f", region.center.lat_deg, region.center.lon_deg);
+    options.region.center = text;
+  }
+  if (!is_given("--side")) {
+    std::snprintf(text, sizeof text, "%.17gm", region.side_m);
+    options.region.side = text;
+  }
+  if (!is_given("--spacing") && region.spacing_m) {
+    std::snprintf(text, sizeof text, "%.17gm", *region.spacing_m);
+    options.region.spacing = text;
+  }
+  if (!is_given("--error")) options.error_px = region.error_px;
+  if (!is_given("--shadows")) options.shadows = region.shadows ? "on" : "off";
+  if (!is_given("--materials")) options.materials = region.materials ? "on" : "off";
+}
+
 std::optional<globe::scene::Scene> scene_of(const CLI::App& command, FlatOptions& options) {
   std::optional<globe::scene::Scene> scene = take_scene(command, options);
   if (scene && !scene->effects.empty())
-    std::fprintf(stderr, "globe: warning: %s: its effects are not drawn over a local region\n",
-                 scene->file.c_str());
+    std::fprintf(stderr,
+                 "globe: warning: %s:%d: effects.%s: not drawn over a region alone; globe shot and globe fly "
+                 "draw them over one in the globe\n",
+                 scene->file.c_str(), scene->effects.front().line, scene->effects.front().name.c_str());
+  if (scene && scene->region) take_region(command, *scene->region, options);
   return scene;
 }
 
@@ -276,7 +300,7 @@ struct PvsOptions : ViewOptions {
 
 void write_pvs(const PvsOptions& options) {
   globe::refuse_existing(options.output, options.overwrite);
-  const Region region = open_region(options, options.region, std::nullopt);
+  const FlatRegion region = open_region(options, options.region, std::nullopt);
   Progress progress(progress_style(options.quiet, false));
   const flat::Visibility sets = flat::Visibility::compute(
       *region.terrain, [&](double share) { progress.show("looking around", share); });

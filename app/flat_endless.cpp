@@ -228,7 +228,8 @@ void add_flat_endless(CLI::App& flat) {
   on_off("--culling", options->culling, "off: blocks out of view are drawn too");
   command->add_option(
       "--rings", options->rings,
-      "radii of the finest level and of the next, metres (default: 0.16 and 0.32 of what is there)");
+      "radii of the finest level and of the next, metres (default: 0.16 and 0.32 of what is there); a level "
+      "goes over into the next gradually where there are two blocks of it, and three between the radii");
   number("--block", options->pager.log2_cells, 2, 6, "a block's side has 2^N cells");
   number("--blocks", options->pager.log2_blocks, 2, 8, "what is there has 2^N blocks a side");
   number("--slack", options->pager.slack, 0, 1, "how much wider than a block the box is that pages, blocks");

@@ -14,6 +14,7 @@
 #include "converters/local_ground.h"
 #include "converters/resources.h"
 #include "flat/fractal/ground.h"
+#include "flat/globe_region.h"
 #include "flat/height_grid.h"
 #include "globe/base/error.h"
 #include "globe/planet/appearance.h"
@@ -126,7 +127,7 @@ HalfSize known_size(const converters::LocalGround& ground, const flat::TangentFr
   return widest;
 }
 
-Region region_of_map(const ViewOptions& options, const LocalRegionOptions& asked) {
+FlatRegion region_of_map(const ViewOptions& options, const LocalRegionOptions& asked) {
   Progress progress(progress_style(options.quiet, false));
   const auto ground = std::make_shared<converters::LocalGround>(
       converters::MapInput{options.planet}, geo::kWgs84, static_cast<std::size_t>(options.memory_mb) << 20,
@@ -159,38 +160,39 @@ Region region_of_map(const ViewOptions& options, const LocalRegionOptions& asked
     std::fprintf(stderr, "globe: warning: %s: %.3g %% of the map is void, filled from around\n",
                  options.planet.c_str(), 100.0 * ground->void_share());
   }
-  Region region;
+  FlatRegion region;
   region.terrain = std::make_shared<const flat::Terrain>(frame, grid, *grid.extent());
   return region;
 }
 
-Region region_of_planet(const ViewOptions& options, const LocalRegionOptions& asked,
-                        const std::optional<geo::Geodetic>& around) {
-  const auto center = asked.center.empty() ? around : center_of(asked);
-  if (!center) {
-    throw globe::UsageError(options.planet, "nothing says which part of the planet",
-                            "give --center LAT,LON, or --at");
-  }
-  const auto surface = open_planet(options);
-  const double side = length_of(asked.side, "--side").value_or(kPlanetSide);
-  const HalfSize half{side / 2.0, side / 2.0};
-  const double spacing =
-      spacing_for(length_of(asked.spacing, "--spacing"), side / kPlanetPosts, half, options.planet);
-  const flat::TangentFrame frame(surface->ellipsoid(), center->lat_deg, center->lon_deg);
+/// A square of a planet, at the level of detail that its posts need.
+struct PartOfPlanet {
+  std::string name;  ///< for messages
+  geo::Geodetic center;
+  double side_m;
+  std::optional<double> spacing_m;
+};
+
+FlatRegion part_of(const std::shared_ptr<const globe::planet::Surface>& surface, const PartOfPlanet& part,
+                   ProgressStyle style) {
+  const HalfSize half{part.side_m / 2.0, part.side_m / 2.0};
+  const double spacing = spacing_for(part.spacing_m, part.side_m / kPlanetPosts, half, part.name);
+  const flat::TangentFrame frame(surface->ellipsoid(), part.center.lat_deg, part.center.lon_deg);
   const int level = std::clamp(static_cast<int>(std::ceil(std::log2(surface->root_edge() / spacing))), 0, 26);
   const flat::GroundHeights heights = [&](std::span<const dvec3> normals, std::span<float> out) {
     for (std::size_t k = 0; k < normals.size(); ++k)
-      out[k] = static_cast<float>(surface->drawn_height(surface->height(normals[k], level)));
+      out[k] = static_cast<float>(surface->mesh_height(surface->height(normals[k], level)));
   };
-  Progress progress(progress_style(options.quiet, false));
+  Progress progress(style);
   const flat::HeightGrid grid =
-      flat::sample_ground(frame, spacing, posts_within(half, spacing, options.planet), heights, 0.005,
+      flat::sample_ground(frame, spacing, posts_within(half, spacing, part.name), heights, 0.005,
                           [&](double share) { progress.show("sampling heights", share); });
   progress.clear();
-  Region region;
+  FlatRegion region;
   region.terrain = std::make_shared<const flat::Terrain>(frame, grid, *grid.extent());
   region.body = surface->info().body;
   region.air = globe::render::has_air(surface->info());
+  region.level = level;
   region.knowledge = [surface, level](const dvec3& normal, globe::planet::Ground& ground) {
     const globe::planet::Place place = globe::planet::locate(normal, level);
     const globe::planet::Node node{place.d, level, static_cast<int>(std::lround(place.ij.x)),
@@ -207,9 +209,22 @@ Region region_of_planet(const ViewOptions& options, const LocalRegionOptions& as
   return region;
 }
 
+FlatRegion region_of_planet(const ViewOptions& options, const LocalRegionOptions& asked,
+                            const std::optional<geo::Geodetic>& around) {
+  const auto center = asked.center.empty() ? around : center_of(asked);
+  if (!center) {
+    throw globe::UsageError(options.planet, "nothing says which part of the planet",
+                            "give --center LAT,LON, or --at");
+  }
+  return part_of(open_planet(options),
+                 {options.planet, *center, length_of(asked.side, "--side").value_or(kPlanetSide),
+                  length_of(asked.spacing, "--spacing")},
+                 progress_style(options.quiet, false));
+}
+
 /// Around the lattice's origin, wherever on the ellipsoid that is.
-Region region_of_fractal(const ViewOptions& options, const LocalRegionOptions& asked,
-                         const std::optional<geo::Geodetic>& around) {
+FlatRegion region_of_fractal(const ViewOptions& options, const LocalRegionOptions& asked,
+                             const std::optional<geo::Geodetic>& around) {
   flat::fractal::Settings settings = fractal_settings(asked.fractal, options.planet);
   if (!asked.spacing.empty()) {
     throw globe::UsageError("--spacing", "fractal ground has posts 1/2^iterations of an area apart",
@@ -227,7 +242,7 @@ Region region_of_fractal(const ViewOptions& options, const LocalRegionOptions& a
                             "give a smaller --side or fewer --iterations");
   }
   const flat::fractal::FractalSource source(settings);
-  Region region;
+  FlatRegion region;
   region.terrain =
       std::make_shared<const flat::Terrain>(flat::TangentFrame(geo::kWgs84, center.lat_deg, center.lon_deg),
                                             source, posts_within(half, spacing, options.planet));
@@ -252,11 +267,36 @@ void add_local_region_options(CLI::App& command, LocalRegionOptions& options) {
   add_fractal_options(command, options.fractal);
 }
 
-Region open_region(const ViewOptions& options, const LocalRegionOptions& region,
-                   const std::optional<geo::Geodetic>& around) {
+FlatRegion open_region(const ViewOptions& options, const LocalRegionOptions& region,
+                       const std::optional<geo::Geodetic>& around) {
   if (fractal_seed(options.planet)) return region_of_fractal(options, region, around);
   if (names_planet(options.planet)) return region_of_planet(options, region, around);
   return region_of_map(options, region);
+}
+
+std::optional<FlatRegion> region_of(const std::optional<globe::scene::Scene>& scene,
+                                    const std::shared_ptr<const globe::planet::Surface>& surface,
+                                    bool quiet) {
+  if (!scene || !scene->region) return std::nullopt;
+  const globe::scene::Region& asked = *scene->region;
+  return part_of(surface, {scene->file.string() + ": region", asked.center, asked.side_m, asked.spacing_m},
+                 progress_style(quiet, false));
+}
+
+std::unique_ptr<globe::render::RegionRenderer> region_in_globe(
+    const std::optional<FlatRegion>& region, const std::optional<globe::scene::Scene>& scene,
+    const globe::render::RenderSettings& settings) {
+  if (!region || !scene->region) return nullptr;
+  const globe::scene::Region& asked = *scene->region;
+  flat::GroundSettings ground;
+  ground.error_px = asked.error_px;
+  ground.shadows = asked.shadows;
+  if (asked.materials) ground.materials = flat::grass_stone_and_mud(*region->terrain);
+  ground.show = settings.show;
+  ground.wireframe = settings.wireframe;
+  ground.morph = settings.clipmap.morph ? flat::Morph::kGpu : flat::Morph::kOff;
+  ground.air_steps = settings.air;
+  return std::make_unique<flat::GlobeRegion>(region->terrain, region->knowledge, ground);
 }
 
 }  // namespace app

@@ -15,12 +15,12 @@ namespace {
 
 namespace geo = globe::geo;
 
-constexpr int kSamples = 512;     ///< a step of the path is a hundredth of its height or so
-constexpr int kPieceSamples = 8;  ///< at least, between two places of a path
+constexpr int kFlightSamples = 512;  ///< a step of the path is a hundredth of its height or so
+constexpr int kPieceSamples = 8;     ///< at least, between two places of a path
 constexpr int kMostSamples = 8192;
-constexpr double kShare = 0.25;
-constexpr double kWidth = 1.0 / 12.0;
-constexpr double kLeastWidth = kWidth / 4.0;  ///< by the places of a path
+constexpr double kClearShare = 0.25;
+constexpr double kEasedShare = 1.0 / 12.0;
+constexpr double kLeastEasedShare = kEasedShare / 4.0;  ///< by the places of a path
 constexpr double kSharpness = 8.0;  ///< of the mean of rises: higher comes nearer to the highest of them
 
 glm::dvec3 normal(const FlightEnd& end) {
@@ -80,18 +80,18 @@ void Flight::find_rises(const std::vector<double>& marks) {
   const int least = std::min(kPieceSamples, kMostSamples / static_cast<int>(marks.size()));
   for (std::size_t piece = 0; piece + 1 < marks.size(); ++piece) {
     const double begin = marks[piece], end = marks[piece + 1];
-    const int samples = std::max({static_cast<int>(std::ceil(kSamples * (end - begin))), least, 1});
+    const int samples = std::max({static_cast<int>(std::ceil(kFlightSamples * (end - begin))), least, 1});
     for (int k = 1; k <= samples; ++k) {
       const double t = k == samples ? end : begin + (end - begin) * k / samples;
       const Planned planned = plan_(t);
       const geo::Geodetic& place = planned.view.place;
       const globe::planet::Clearance keep{
-          std::max(kShare * planned.above_m, least_clearance(surface_->ellipsoid())),
+          std::max(kClearShare * planned.above_m, least_clearance(surface_->ellipsoid())),
           globe::clipmap::finest_level(settings_, surface_->root_edge(), planned.above_m, max_level_).level};
       const double raised = globe::planet::clear_way(*surface_, before, place, keep).back().h_m - place.h_m;
       before = place;
       const double width =
-          std::min({kWidth, t, 1.0 - t, std::max(std::min(t - begin, end - t), kLeastWidth)});
+          std::min({kEasedShare, t, 1.0 - t, std::max(std::min(t - begin, end - t), kLeastEasedShare)});
       if (raised > 0.0 && width > 0.0) rises_.push_back({t, width, raised});
     }
   }

@@ -14,6 +14,7 @@
 #include "app/commands.h"
 #include "app/contact_sheet.h"
 #include "app/effect_trace.h"
+#include "app/flat_region.h"
 #include "app/flight.h"
 #include "app/flight_stats.h"
 #include "app/frame_budget.h"
@@ -86,6 +87,13 @@ void refuse_existing(const std::string& path, bool overwrite) {
   }
 }
 
+/// A flight knows the planet's own ground only: a region's, whose posts are farther apart, may be higher.
+void stay_above(geo::Geodetic& place, const render::GlobeRenderer& renderer, const geo::Ellipsoid& ellipsoid,
+                bool wait) {
+  const double above = renderer.height_above_ground(geo::ecef_from_geodetic(ellipsoid, place), wait);
+  place.h_m += std::max(least_clearance(ellipsoid) - above, 0.0);
+}
+
 /// A flight, and the place that the sun shines on.
 struct Planned {
   Flight flight;
@@ -149,7 +157,8 @@ void run(FlyOptions options, const CLI::App& command) {
   const geo::Ellipsoid& ellipsoid = surface->ellipsoid();
 
   const globe::gl::Context context(view.device);
-  render::GlobeRenderer renderer(surface, settings, effects_of(scene, *surface, optics));
+  render::GlobeRenderer renderer(surface, settings, effects_of(scene, *surface, optics),
+                                 region_in_globe(region_of(scene, surface, view.quiet), scene, settings));
   Lens lens(optics, size.width, size.height, view.samples, settings.background);
   const globe::gl::Framebuffer& target = lens.target();
 
@@ -189,7 +198,8 @@ void run(FlyOptions options, const CLI::App& command) {
     clock.await_turn();
     const double t = options.frames == 1 ? 1.0 : static_cast<double>(k) / (options.frames - 1);
     const auto begin = std::chrono::steady_clock::now();
-    const Flight::View at = flight.at(t, options.wait);
+    Flight::View at = flight.at(t, options.wait);
+    if (renderer.region() != nullptr) stay_above(at.place, renderer, ellipsoid, options.wait);
     const render::Camera camera = camera_at(at);
     renderer.set_instant(sun.instant(t * flight.duration_s()));
     timer.begin();

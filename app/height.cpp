@@ -31,7 +31,7 @@ struct HeightOptions {
 };
 
 /// What one point is answered.
-struct Answer {
+struct HeightAnswer {
   double lat_deg, lon_deg;
   int level;
   double height_m;
@@ -40,7 +40,7 @@ struct Answer {
   std::string datum;
 };
 
-std::string fields(const Answer& answer, const std::optional<int>& precision, char separator,
+std::string fields(const HeightAnswer& answer, const std::optional<int>& precision, char separator,
                    const std::string& unknown) {
   std::string line = number_text(answer.lat_deg, precision) + separator +
                      number_text(answer.lon_deg, precision) + separator + std::to_string(answer.level) +
@@ -50,7 +50,7 @@ std::string fields(const Answer& answer, const std::optional<int>& precision, ch
   return line + separator + answer.datum;
 }
 
-std::string json_line(const Answer& answer, const std::optional<int>& precision) {
+std::string json_line(const HeightAnswer& answer, const std::optional<int>& precision) {
   nlohmann::ordered_json object;
   object["lat"] = answer.lat_deg;
   object["lon"] = answer.lon_deg;
@@ -102,13 +102,13 @@ int run(const HeightOptions& options) {
     const globe::planet::DataSource data = surface->data_at(u);
     const int level = options.level.value_or(data.level);
     const GroundHeight height = height_of(*surface, u, level, options);
-    Answer result{shown(at.lat_deg, precision),
-                  shown_longitude(at.lon_deg, precision),
-                  level,
-                  height.height_m,
-                  source_of(*surface, u, data, level, options),
-                  std::nullopt,
-                  surface->info().vertical_datum};
+    HeightAnswer result{shown(at.lat_deg, precision),
+                        shown_longitude(at.lon_deg, precision),
+                        level,
+                        height.height_m,
+                        source_of(*surface, u, data, level, options),
+                        std::nullopt,
+                        surface->info().vertical_datum};
     if (result.source != kSynthesised && result.source != kFilled) result.error_m = height.error_m;
     if (options.records.json) return json_line(result, precision);
     return options.records.csv ? fields(result, precision, ',', "") : fields(result, precision, ' ', "-");

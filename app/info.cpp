@@ -22,7 +22,7 @@ using globe::planet::kBuiltinRelief_m;
 
 constexpr std::size_t kVerifyCache = std::size_t{128} << 20;
 
-struct Arguments {
+struct InfoArguments {
   std::string planet;
   bool verify = false;
   bool json = false;
@@ -190,7 +190,7 @@ globe::planet::PlanetFile described(const std::string& planet) {
 }
 
 /// What --verify finds; nothing can be wrong with a planet that is computed.
-globe::planet::Verification verify(const Arguments& arguments) {
+globe::planet::Verification verify(const InfoArguments& arguments) {
   if (procedural_seed(arguments.planet)) return {};
   Progress progress(progress_style(arguments.json, false));
   return globe::planet::verify_planet(
@@ -198,7 +198,7 @@ globe::planet::Verification verify(const Arguments& arguments) {
       [&](const std::string& stage, double fraction) { progress.show(stage, fraction); });
 }
 
-void info(const Arguments& arguments, int& exit_status) {
+void info(const InfoArguments& arguments, int& exit_status) {
   const globe::planet::PlanetFile file = described(arguments.planet);
   const bool computed = procedural_seed(arguments.planet).has_value();
   ordered_json json = to_json(file, computed ? std::nullopt : mean_height(arguments.planet));
@@ -228,7 +228,7 @@ void info(const Arguments& arguments, int& exit_status) {
 }  // namespace
 
 void add_info(CLI::App& program, int& exit_status) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<InfoArguments>();
   CLI::App* command =
       program.add_subcommand("info", "What a planet is made of: ellipsoid, layers, ranges, credits");
   command->add_option("planet", arguments->planet, "folder made by globe convert, or procedural[:SEED]")

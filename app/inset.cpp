@@ -20,7 +20,7 @@ namespace app {
 namespace {
 
 /// The command line as it was typed.
-struct Arguments {
+struct InsetArguments {
   std::string planet;
   std::vector<std::string> heights;
   std::vector<std::string> colors;
@@ -48,7 +48,7 @@ std::string name_from(const std::string& path) {
   return name.substr(0, 64);
 }
 
-converters::InsetOptions options_from(const Arguments& arguments) {
+converters::InsetOptions options_from(const InsetArguments& arguments) {
   if (procedural_seed(arguments.planet)) {
     throw globe::UsageError(arguments.planet,
                             "the built-in planet lies in no folder that could hold an inset",
@@ -79,7 +79,7 @@ converters::InsetOptions options_from(const Arguments& arguments) {
   return options;
 }
 
-void inset(const Arguments& arguments) {
+void inset(const InsetArguments& arguments) {
   const converters::InsetOptions options = options_from(arguments);
   Progress progress(progress_style(arguments.quiet, arguments.progress == "json"));
   const converters::ConvertListener listener = listener_of(progress, arguments.quiet);
@@ -89,7 +89,7 @@ void inset(const Arguments& arguments) {
 }  // namespace
 
 void add_inset(CLI::App& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<InsetArguments>();
   CLI::App* command = program.add_subcommand("inset", "Lay finer local data over a planet");
   command->add_option("PLANET", arguments->planet, "folder made by globe convert")->required();
   command->add_option(

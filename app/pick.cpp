@@ -10,13 +10,17 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/flat_region.h"
 #include "app/parse_options.h"
 #include "app/planet_argument.h"
 #include "app/records.h"
 #include "app/scene_argument.h"
 #include "app/standing_camera.h"
 #include "app/view_options.h"
+#include "flat/drawn_region.h"
+#include "flat/rim.h"
 #include "globe/base/error.h"
+#include "globe/clipmap/cut.h"
 #include "globe/clipmap/drawn_surface.h"
 #include "globe/clipmap/ground_below.h"
 #include "globe/render/camera.h"
@@ -25,6 +29,7 @@
 namespace app {
 namespace {
 
+namespace flat = globe::flat;
 namespace geo = globe::geo;
 namespace render = globe::render;
 using globe::clipmap::DrawnPoint;
@@ -66,18 +71,38 @@ class Picker {
  public:
   Picker(const std::shared_ptr<const globe::planet::Surface>& surface, const PickOptions& options,
          const std::optional<globe::scene::Scene>& scene, const Optics& optics, const Size& size)
-      : ellipsoid_(surface->ellipsoid()), size_(size), projection_(optics.projection) {
+      : ellipsoid_(surface->ellipsoid()),
+        size_(size),
+        projection_(optics.projection),
+        region_(region_of(scene, surface, true)) {
     const auto settings = clipmap_settings(options.camera);
     const int max_level = render::RenderSettings{}.max_level;
     const auto above = [&](const glm::dvec3& position) {
-      return globe::clipmap::height_above_ground(settings, *surface, position, max_level, true);
+      const double share = region_ ? flat::own_share(*region_->terrain, position) : 0.0;
+      double height = share > 0.0 ? share * region_->terrain->height_above(position) : 0.0;
+      if (share < 1.0)
+        height += (1.0 - share) *
+                  globe::clipmap::height_above_ground(settings, *surface, position, max_level, true);
+      return height;
     };
     const Standpoint stand = standpoint(options.stand, options.camera, scene, surface, max_level, above);
     camera_ = optics.camera(ellipsoid_, stand.place, stand.look.heading_deg, stand.look.pitch_deg,
                             static_cast<double>(size.width) / size.height);
-    near_m_ = render::near_distance(
-        ellipsoid_, std::max(above(camera_.position), globe::clipmap::least_above_ground(ellipsoid_)));
-    surface_.emplace(globe::clipmap::complete_surface(settings, surface, camera_.position, max_level));
+    double away_m = std::max(above(camera_.position), globe::clipmap::least_above_ground(ellipsoid_));
+    near_m_ = render::near_distance(ellipsoid_, away_m);
+    if (region_) {
+      room_ = flat::room_of(*region_->terrain);
+      const glm::dvec4 inside = room_.inside_m(camera_.position);
+      away_m = std::max(away_m, std::min({inside.x, inside.y, inside.z, inside.w}));
+    }
+    const auto complete =
+        globe::clipmap::complete_state(settings, *surface, camera_.position, away_m, max_level);
+    surface_.emplace(complete.settings, surface, complete.state, complete.shown.level, complete.shown.fade);
+    if (!region_) return;
+    drawn_region_.emplace(
+        region_->terrain, flat::make_rim(*region_->terrain, [&](const globe::clipmap::CuttingPlane& plane) {
+          return globe::clipmap::cut(complete.settings, *complete.state, complete.shown, plane);
+        }));
   }
 
   std::optional<DrawnPoint> at(const Pixel& pixel) const {
@@ -92,7 +117,12 @@ class Picker {
                             glm::dot(*direction, camera_.forward)));
     const double ahead =
         projection_ == render::Projection::kPerspective ? along.z : std::max({along.x, along.y, along.z});
-    return surface_->first_hit({camera_.position, *direction}, near_m_ / ahead);
+    const globe::clipmap::Ray ray(camera_.position, *direction);
+    if (!drawn_region_) return surface_->first_hit(ray, near_m_ / ahead);
+    const auto hit = flat::first_hit(*surface_, *drawn_region_, room_, ray, near_m_ / ahead);
+    if (!hit) return std::nullopt;
+    if (hit->globe) return hit->globe;
+    return DrawnPoint{camera_.position + hit->distance_m * *direction, hit->distance_m, region_->level, 0.0};
   }
 
  private:
@@ -102,6 +132,9 @@ class Picker {
   render::Camera camera_;
   double near_m_ = 0;
   std::optional<globe::clipmap::DrawnSurface> surface_;
+  std::optional<FlatRegion> region_;
+  render::Room room_;
+  std::optional<flat::DrawnRegion> drawn_region_;
 };
 
 /// One answer as a line: the ground's place, or sky.

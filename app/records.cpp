@@ -110,12 +110,12 @@ struct Part {
   bool failed = false;  ///< a record was bad; with --strict nothing comes after it
 };
 
-using Answer = std::function<std::string(const std::string&)>;
+using AnswerRecord = std::function<std::string(const std::string&)>;
 
 /// @param number  that of the first record, from 1
 /// @param from_input  of standard input, which may hold comments and whose lines have numbers
 Part answer_part(std::span<const std::string> records, std::size_t number, bool from_input,
-                 const RecordOptions& options, const Answer& answer) {
+                 const RecordOptions& options, const AnswerRecord& answer) {
   Part part;
   for (const std::string& record : records) {
     const std::size_t line = number++;
@@ -142,7 +142,7 @@ Part answer_part(std::span<const std::string> records, std::size_t number, bool 
 /// Answers records in parts, on all threads if `threads` says so, and writes them in order. Returns whether
 /// one failed.
 bool write_answers(std::span<const std::string> records, std::size_t number, bool from_input,
-                   const RecordOptions& options, const Answer& answer, Threads threads) {
+                   const RecordOptions& options, const AnswerRecord& answer, Threads threads) {
   constexpr std::size_t kPart = 64;
   std::vector<Part> parts((records.size() + kPart - 1) / kPart);
   const auto answer_one = [&](std::size_t k) {

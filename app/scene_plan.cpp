@@ -77,6 +77,16 @@ std::string text_of(const Plan& plan) {
                   plan.all.median, effect.without->median, costs);
     text += line;
   }
+  if (plan.region) {
+    std::snprintf(
+        line, sizeof line,
+        "\nregion: %zu patches, %zu triangles in view, %s; %.2f ms with it (%.2f to %.2f), %.2f without "
+        "(%.2f to %.2f)\n",
+        plan.region->patches, plan.region->triangles, bytes_text(plan.region->gpu_bytes).c_str(),
+        plan.region->with.median, plan.region->with.low, plan.region->with.high, plan.region->without.median,
+        plan.region->without.low, plan.region->without.high);
+    text += line;
+  }
   if (plan.light_bytes > 0)
     text += "\nthe picture is drawn as light for the effects' passes: " + bytes_text(plan.light_bytes) + "\n";
   std::snprintf(
@@ -107,12 +117,21 @@ std::string json_of(const Plan& plan) {
                        {"off", json_of(*effect.without)},
                        {"cost_ms", plan.all.median - effect.without->median}});
   }
+  ordered_json region;
+  if (plan.region) {
+    region = {{"patches", plan.region->patches},
+              {"triangles", plan.region->triangles},
+              {"gpu_bytes", plan.region->gpu_bytes},
+              {"on", json_of(plan.region->with)},
+              {"off", json_of(plan.region->without)}};
+  }
   const ordered_json object{{"scene", plan.scene},           {"renderer", plan.renderer},
                             {"lat", plan.place.lat_deg},     {"lon", plan.place.lon_deg},
                             {"alt_m", plan.place.h_m},       {"above_ground_m", plan.above_ground_m},
                             {"width", plan.size.width},      {"height", plan.size.height},
                             {"effects", std::move(effects)}, {"light_bytes", plan.light_bytes},
-                            {"all", json_of(plan.all)},      {"none", json_of(plan.none)}};
+                            {"region", std::move(region)},   {"all", json_of(plan.all)},
+                            {"none", json_of(plan.none)}};
   return object.dump(2) + "\n";
 }
 

@@ -29,6 +29,14 @@ struct PlannedEffect {
   std::optional<Time> without;  ///< a frame with all other effects
 };
 
+/// What becomes of a scene's region.
+struct PlannedRegion {
+  std::size_t patches = 0;  ///< in view
+  std::size_t triangles = 0;
+  std::size_t gpu_bytes = 0;
+  Time with, without;  ///< frames of the scene
+};
+
 /// What `globe explain` found out about a scene.
 struct Plan {
   std::string scene;     ///< its file
@@ -37,6 +45,7 @@ struct Plan {
   double above_ground_m = 0;
   Size size;
   std::vector<PlannedEffect> effects;
+  std::optional<PlannedRegion> region;
   std::size_t light_bytes = 0;
   Time all, none;  ///< frames of the scene as it is, and without effects
 };

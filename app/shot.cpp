@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/flat_region.h"
 #include "app/save_picture.h"
 #include "app/scene_argument.h"
 #include "app/standing_camera.h"
@@ -37,7 +38,8 @@ void run(ShotOptions options, const CLI::App& command) {
   const Sunlight sun = sun_for(view, *surface, sunny);
 
   const globe::gl::Context context(view.device);
-  render::GlobeRenderer renderer(surface, settings, effects_of(scene, *surface, optics));
+  render::GlobeRenderer renderer(surface, settings, effects_of(scene, *surface, optics),
+                                 region_in_globe(region_of(scene, surface, view.quiet), scene, settings));
   Lens lens(optics, size.width, size.height, view.samples, settings.background);
   const globe::gl::Framebuffer& target = lens.target();
 

@@ -33,7 +33,7 @@ struct SightOptions {
 };
 
 /// What a pair is answered.
-struct Answer {
+struct SightAnswer {
   Geodetic a, b;  ///< the eyes
   Sight sight;
   double lowest_at_m = 0, blocked_at_m = 0;  ///< along the geodesic from A
@@ -42,12 +42,12 @@ struct Answer {
 
 Geodetic eye_of(const Point& point, const Surface& surface, const globe::planet::SightSettings& settings,
                 bool agl) {
-  constexpr double kHighest = 1e9;
+  constexpr double kHighestEye = 1e9;
   Geodetic eye = point.position;
   if (!point.has_alt || agl)
     eye.h_m = globe::planet::sight_ground(surface, eye, settings) + (point.has_alt ? eye.h_m : kEyeHeight);
   const double deepest = -surface.ellipsoid().a / 10.0;
-  if (!(eye.h_m >= deepest && eye.h_m <= kHighest)) {
+  if (!(eye.h_m >= deepest && eye.h_m <= kHighestEye)) {
     throw globe::UsageError("ALT " + number_text(eye.h_m, std::nullopt), "is no height of an eye",
                             "give metres from " + number_text(deepest, 0) + " to 1000000000");
   }
@@ -62,7 +62,8 @@ nlohmann::ordered_json json_place(const SightPlace& place, double distance_m,
           {"distance_m", shown(distance_m, precision)}};
 }
 
-std::string json_line(const Answer& answer, const SightOptions& options, const Surface& surface, int level) {
+std::string json_line(const SightAnswer& answer, const SightOptions& options, const Surface& surface,
+                      int level) {
   const auto& precision = options.records.precision;
   const auto& [a, b, sight, lowest_at_m, blocked_at_m, distance_m] = answer;
   nlohmann::ordered_json object;
@@ -81,7 +82,7 @@ std::string json_line(const Answer& answer, const SightOptions& options, const S
   return object.dump();
 }
 
-std::string table_line(const Answer& answer, char separator, const std::optional<int>& precision) {
+std::string table_line(const SightAnswer& answer, char separator, const std::optional<int>& precision) {
   const Sight& sight = answer.sight;
   const SightPlace& place = sight.visible ? sight.lowest : *sight.blocked_at;
   std::string line = sight.visible ? "visible" : "blocked";
@@ -94,7 +95,7 @@ std::string table_line(const Answer& answer, char separator, const std::optional
 }
 
 /// The finest level of the ground between the eyes.
-int level_of(const Surface& surface, const Answer& answer, const SightOptions& options) {
+int level_of(const Surface& surface, const SightAnswer& answer, const SightOptions& options) {
   return options.level ? *options.level
                        : globe::planet::data_levels_along(surface, answer.a, answer.b).finest;
 }
@@ -113,7 +114,7 @@ int run(const SightOptions& options) {
   const globe::geo::GeodesicSolver geodesics(surface->ellipsoid());
   const auto answer = [&](const std::string& record) {
     const PointPair pair = parse_point_pair(record);
-    Answer found;
+    SightAnswer found;
     found.a = eye_of(pair.a, *surface, settings, options.agl);
     found.b = eye_of(pair.b, *surface, settings, options.agl);
     found.sight = globe::planet::sight(*surface, found.a, found.b, settings);

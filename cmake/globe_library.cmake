@@ -13,6 +13,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
   # GCC 12 warns of overlaps inside std::string's operator+ that cannot happen (GCC bug 105651).
   target_compile_options(globe_flags INTERFACE -Wno-restrict)
 endif()
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # GCC takes what an included .cpp has in its anonymous namespace for something of a header's.
+  target_compile_options(globe_flags INTERFACE -Wno-subobject-linkage)
+endif()
 if(GLOBE_SANITIZE)
   target_compile_options(globe_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(globe_flags INTERFACE -fsanitize=address,undefined)

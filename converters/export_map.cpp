@@ -22,7 +22,7 @@ using globe::planet::nodes_per_side;
 using globe::planet::Surface;
 using SurfacePointer = std::shared_ptr<const Surface>;
 
-constexpr int kMaxSide = 1 << 21;     ///< pixels
+constexpr int kMaxMapSide = 1 << 21;  ///< pixels
 constexpr double kEnoughCells = 4.0;  ///< a pixel: the mean of 4 x 4 places, or more
 constexpr int kTokensAThread = 4;     ///< blocks on their way for each thread
 
@@ -47,7 +47,7 @@ MapWindow window_of(const ExportOptions& options, int level) {
   };
   const double width = options.size ? options.size->width : pixels(wide);
   const double height = options.size ? options.size->height : pixels(high);
-  if (!(width >= 1.0 && height >= 1.0 && width <= kMaxSide && height <= kMaxSide)) {
+  if (!(width >= 1.0 && height >= 1.0 && width <= kMaxMapSide && height <= kMaxMapSide)) {
     throw UsageError("--size", number(width) + "x" + number(height) + " pixels cannot be written",
                      "give a smaller --size or --extent");
   }
@@ -116,7 +116,7 @@ void write_blocks(const Surface& surface, int level, const MapSampler& sampler, 
 }
 
 /// What the map is made of.
-struct Plan {
+struct MapPlan {
   MapDescription map;
   int level;       ///< the one asked for
   int read_level;  ///< the one that pixels come from
@@ -139,9 +139,9 @@ void require_marks(const Surface& surface, MapContent content, const ExportOptio
   }
 }
 
-Plan plan(const Surface& surface, const ExportOptions& options) {
+MapPlan plan(const Surface& surface, const ExportOptions& options) {
   const std::string name = surface.info().name;
-  Plan plan{};
+  MapPlan plan{};
   plan.map.content = content_of(surface, options);
   const bool heights = plan.map.content == MapContent::kHeights;
   if (heights && !surface.has_heights())
@@ -177,7 +177,7 @@ const char* name_of(Sampling sampling) {
   return "area";
 }
 
-std::string description(const Surface& surface, const Plan& plan) {
+std::string description(const Surface& surface, const MapPlan& plan) {
   const MapWindow& window = plan.map.window;
   const bool heights = plan.map.content == MapContent::kHeights;
   std::string text = std::string(heights ? "heights" : "colors") + " of " + surface.info().name +
@@ -191,7 +191,7 @@ std::string description(const Surface& surface, const Plan& plan) {
   return text;
 }
 
-HeightKind kind_of(const Plan& plan, const ExportOptions& options) {
+HeightKind kind_of(const MapPlan& plan, const ExportOptions& options) {
   if (plan.read_level < plan.level) return HeightKind::kFiltered;
   return options.level ? HeightKind::kSynthesised : HeightKind::kData;
 }
@@ -236,7 +236,7 @@ void export_map(const SurfacePointer& surface, const ExportOptions& options,
     if (listener.note) listener.note(text);
   };
   require_map_name(options.output);
-  Plan plan = converters::plan(*surface, options);
+  MapPlan plan = converters::plan(*surface, options);
   const bool heights = plan.map.content == MapContent::kHeights;
   note(description(*surface, plan));
   if (heights && options.output.extension() == ".png") {

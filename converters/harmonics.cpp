@@ -3,15 +3,16 @@
 #include <GeographicLib/CircularEngine.hpp>
 #include <GeographicLib/SphericalHarmonic.hpp>
 #include <cmath>
-#include <numbers>
 #include <random>
+
+#include "globe/base/angles.h"
 
 namespace converters {
 namespace {
 
-using GeographicLib::SphericalHarmonic;
+using globe::kDegree;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+using GeographicLib::SphericalHarmonic;
 
 SphericalHarmonic engine(const std::vector<double>& cosines, const std::vector<double>& sines, int degree) {
   return {cosines, sines, degree, 1.0, SphericalHarmonic::FULL};

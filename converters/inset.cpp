@@ -36,7 +36,7 @@ constexpr int kFinestInset = 24;        ///< nodes 60 cm apart on the Earth
 constexpr std::size_t kNodeBytes = 40;  ///< working memory of a node, at the most
 
 /// The rasters of one layer, and where they go.
-struct Plan {
+struct InsetPlan {
   std::string layer;
   int below = 0;  ///< level of the planet's own
   PlannedLayer maps;
@@ -48,10 +48,10 @@ const LayerInfo* find_layer(const PlanetFile& planet, const std::string& name) {
   return found == planet.info.layers.end() ? nullptr : &*found;
 }
 
-Plan plan_inset(const InsetOptions& options, const PlanetFile& planet, MapKind kind, std::optional<int> level,
-                int threads, const Report& report) {
+InsetPlan plan_inset(const InsetOptions& options, const PlanetFile& planet, MapKind kind,
+                     std::optional<int> level, int threads, const Report& report) {
   const bool heights = kind == MapKind::kHeights;
-  Plan plan{heights ? "height" : "color", 0, {}};
+  InsetPlan plan{heights ? "height" : "color", 0, {}};
   const LayerInfo* below = find_layer(planet, plan.layer);
   if (below == nullptr) {
     throw globe::Error(
@@ -139,8 +139,8 @@ std::vector<InsetGrid<float>> sample_maps(const MapStack& maps, int level,
 
 /// Nodes. Of heights so wide that the blend adds a slope of 1 in 5 where they lie as far from what is below
 /// them as on average; of colors a sixteenth of the width of the data. At most a quarter of that width.
-int fitting_rim(const fs::path& folder, const Plan& plan, const InsetGrid<float>& values, std::size_t data,
-                double edge_m) {
+int fitting_rim(const fs::path& folder, const InsetPlan& plan, const InsetGrid<float>& values,
+                std::size_t data, double edge_m) {
   constexpr double kRunOverRise = 8.0;
   const double width = std::sqrt(static_cast<double>(data));
   double rim = std::min(width / 16.0, 256.0);
@@ -161,7 +161,7 @@ int fitting_rim(const fs::path& folder, const Plan& plan, const InsetGrid<float>
   return static_cast<int>(std::clamp(std::min(rim, width / 4.0), 8.0, 4096.0));
 }
 
-StoredInset make_layer(const InsetOptions& options, const PlanetFile& planet, Plan& plan,
+StoredInset make_layer(const InsetOptions& options, const PlanetFile& planet, InsetPlan& plan,
                        std::size_t memory_bytes, std::vector<fs::path>& made, const Report& report) {
   const int level = plan.maps.level;
   std::vector<MapGeometry> geometries;
@@ -246,7 +246,7 @@ void lay_inset(const InsetOptions& options, const ConvertListener& listener) {
                                 static_cast<std::size_t>(threads));
   const std::size_t memory = memory_cap(options.memory_bytes);
 
-  std::vector<Plan> plans;
+  std::vector<InsetPlan> plans;
   if (!options.heights.empty())
     plans.push_back(plan_inset(options, planet, MapKind::kHeights, options.level, threads, report));
   if (!options.colors.empty()) {
@@ -259,7 +259,7 @@ void lay_inset(const InsetOptions& options, const ConvertListener& listener) {
   std::vector<std::string> layers;
   std::vector<fs::path> made;
   try {
-    for (Plan& plan : plans) {
+    for (InsetPlan& plan : plans) {
       put(planet, make_layer(options, planet, plan, memory, made, report));
       layers.push_back(plan.layer);
       for (const std::string& credit : credits_of(plan.maps))

@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "converters/inset_grid.h"
+#include "globe/base/angles.h"
 
 namespace converters {
 namespace {
 
+using globe::kDegree;
 using globe::geo::dvec3;
 using globe::planet::InsetBlock;
 using globe::planet::node_direction;
 
 constexpr int kTile = InsetGrid<float>::kTile;
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kLongestEdge = 2.5;  ///< radians, times 2^-level: more than any edge of the lattice
 
 /// A cap around a direction, radians.

@@ -3,24 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <string>
 #include <unordered_map>
 
 #include "converters/export_map.h"
+#include "globe/base/angles.h"
 #include "globe/base/error.h"
 #include "globe/planet/lattice_trixel.h"
 
 namespace converters {
 namespace {
 
+using globe::kDegree;
 using globe::geo::dvec3;
 using globe::geo::Geodetic;
 using globe::planet::LatticeTrixel;
 using globe::planet::Node;
 using globe::planet::Surface;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kHandyVertices = 1e6;
 
 /// Of a longitude east of the region's western side, [0, 360).

@@ -8,6 +8,7 @@
 
 #include "converters/number_text.h"
 #include "converters/thesis_mapping.h"
+#include "globe/base/angles.h"
 #include "globe/base/bit_select.h"
 #include "globe/base/error.h"
 #include "globe/geo/arctangent.h"
@@ -16,7 +17,8 @@
 namespace converters {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+using globe::kDegree;
+
 constexpr double kNear = 0.01;  ///< samples: how far files round their extents
 constexpr double kFar = 1e8;    ///< samples: beyond this nothing is near a raster
 

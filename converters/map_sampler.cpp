@@ -28,7 +28,7 @@ constexpr int kSmallBlock = 8;
 constexpr double kScattered = 8.0;
 constexpr std::size_t kSlots = 128;          ///< blocks a thread holds: 15 MB
 constexpr std::size_t kPlacesAtOnce = 4096;  ///< few enough that the index stays on this thread
-constexpr std::size_t kMaxChannels = 3;
+constexpr std::size_t kMapChannels = 3;
 
 /// Cells of a level along a step of a map at the equator.
 double cells_along(double step_deg, int level) { return step_deg / 90.0 * nodes_per_side(level); }
@@ -134,7 +134,7 @@ void MapSampler::sample_row(int x0, int y, int nx, Blocks& blocks, float* out) c
   std::vector<double> lat(at_once), lon(at_once), ux(at_once), uy(at_once), uz(at_once);
   std::vector<globe::htm::Trixel> trixels(at_once);
 
-  const auto value_of = [&](std::size_t k, std::array<double, kMaxChannels>& value) {
+  const auto value_of = [&](std::size_t k, std::array<double, kMapChannels>& value) {
     const Cell cell = globe::planet::cell_from_trixel(trixels[k]);
     const Blocks::Block& block = blocks.holding(cell.d, cell.i, cell.j);
     // The corners in the order of LatticeTrixel: right angle, along i, along j.
@@ -184,7 +184,7 @@ void MapSampler::sample_row(int x0, int y, int nx, Blocks& blocks, float* out) c
       globe::geo::normals_from_degrees(part(lat), part(lon), part(ux), part(uy), part(uz));
       globe::htm::trixels_at({part(ux), part(uy), part(uz)}, level, std::span(trixels).first(count));
       for (std::size_t k = 0; k < count; ++k) {
-        std::array<double, kMaxChannels> value{};
+        std::array<double, kMapChannels> value{};
         value_of(k, value);
         double* sum = sums.data() + (first + k) / places_across * channels;
         for (std::size_t c = 0; c < channels; ++c) sum[c] += weight * value[c];

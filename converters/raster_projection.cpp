@@ -13,14 +13,15 @@
 #include <vector>
 
 #include "converters/use_gdal.h"
+#include "globe/base/angles.h"
 #include "globe/base/error.h"
 
 namespace converters {
 namespace {
 
+using globe::kDegree;
 using globe::geo::dvec3;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kGridSide = 17;              ///< places of a raster that tell where it lies
 constexpr double kEqualDegrees = 1e-9;     ///< coordinates that are longitudes and latitudes as they stand
 constexpr double kStraightSamples = 1e-4;  ///< how straight parallels and meridians are in a plain map

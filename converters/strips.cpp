@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kLanes = Window::kPadding;  ///< columns at a time
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
-using Samples = float __attribute__((vector_size(kLanes * sizeof(float))));
+using SampleLanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 
 /// The row at or above a strip.
 int row_of(const Strip& strip) {
@@ -47,7 +47,7 @@ void add(const Window& window, int origin, int first_column, int last_column, co
       const float* upper = window.at(origin + column, row);
       const float* under = window.at(origin + column, row + 1);
       if (stride == 1) {
-        Samples of_upper, of_under;
+        SampleLanes of_upper, of_under;
         std::memcpy(&of_upper, upper, sizeof of_upper);
         std::memcpy(&of_under, under, sizeof of_under);
         sum += top * __builtin_convertvector(of_upper, Lanes) +

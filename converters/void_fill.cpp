@@ -11,7 +11,7 @@ namespace converters {
 namespace {
 
 constexpr int kMaxColumns = 4096;
-constexpr std::size_t kMaxChannels = 4;
+constexpr std::size_t kFilledChannels = 4;
 
 int blocks(int samples, int factor) { return (samples + factor - 1) / factor; }
 
@@ -97,7 +97,7 @@ void VoidFill::interpolate(const Blocks& grid, double x, double y, float* out) c
   const double top = std::floor(y);
   const std::array<double, 2> wx{1.0 - (x - left), x - left};
   const std::array<double, 2> wy{1.0 - (y - top), y - top};
-  std::array<double, kMaxChannels> sum{};
+  std::array<double, kFilledChannels> sum{};
   for (int b = 0; b < 2; ++b) {
     const int row = std::clamp(static_cast<int>(top) + b, 0, grid.height - 1);
     for (int a = 0; a < 2; ++a) {

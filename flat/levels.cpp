@@ -22,13 +22,31 @@ float level_for(const LevelErrors& errors, double allowed) {
   return static_cast<float>(kLevels - 1);
 }
 
-ErrorBound error_bound(double pixels, double fov_y_deg, double aspect, int picture_height) {
+ErrorBound error_bound(double pixels, double fov_y_deg, double aspect, int picture_height,
+                       const dvec3& axis) {
   const double tan_y = std::tan(fov_y_deg * std::numbers::pi / 360.0);
   // A small step across a ray at an angle a from the axis is stretched by 1 / cos(a) twice: the picture's
   // plane is that much farther off than where the ray ends, and it is tilted.
   const double stretch = 1.0 + tan_y * tan_y * (1.0 + aspect * aspect);
-  return {pixels, 0.5 * picture_height / tan_y * stretch};
+  return {pixels, stretch, axis, 0.5 * picture_height / tan_y * stretch};
 }
+
+namespace {
+
+/// Share of the corner's stretch that a box has at the most, seen from `eye`: 1 / cos^2 of the angle from the
+/// axis to the farthest of the ball around it and so far beyond.
+double stretch_share(const ErrorBound& bound, const Box& box, const dvec3& eye, double beyond_m) {
+  const dvec3 to = 0.5 * (box.low + box.high) - eye;
+  const double distance = glm::length(to), radius = 0.5 * glm::distance(box.low, box.high) + beyond_m;
+  if (radius >= distance) return 1.0;
+  const double cosine = glm::dot(to, bound.axis) / distance, spread = radius / distance;
+  const double farthest =
+      cosine * std::sqrt(1.0 - spread * spread) - std::sqrt(std::max(1.0 - cosine * cosine, 0.0)) * spread;
+  if (farthest <= 0.0) return 1.0;
+  return std::min(1.0 / (farthest * farthest * bound.corner_stretch), 1.0);
+}
+
+}  // namespace
 
 void limit_steps(std::vector<float>& levels, int patches_east, int patches_north) {
   const auto at = [&](int i, int j) -> float& {
@@ -58,15 +76,24 @@ LevelErrors pixels_off(const Terrain& terrain, std::size_t patch, const dvec3& e
     (quarter % 2 == 0 ? part.high : part.low).x = middle.x;
     (quarter / 2 == 0 ? part.high : part.low).y = middle.y;
     const dvec3 nearest = glm::clamp(eye, part.low, part.high);
-    // Of all lines of sight into the box the farthest from the vertical.
-    const double level = std::hypot(std::max(std::abs(eye.x - part.low.x), std::abs(eye.x - part.high.x)),
-                                    std::max(std::abs(eye.y - part.low.y), std::abs(eye.y - part.high.y)));
-    const double across = level / std::hypot(level, eye.z - nearest.z);
-    const double a_metre = bound.pixels_at_1m * across / std::max(glm::distance(eye, nearest), 1e-6);
-    for (std::size_t k = 0; k < kLevels; ++k)
+    // An error stands upright: of it counts the part across the line of sight, level / distance, over the
+    // distance. Of all lines of sight into the box that is most at the height nearest to the eye's, and there
+    // as far away on the level as up.
+    const double nearest_level = std::hypot(eye.x - nearest.x, eye.y - nearest.y);
+    const double farthest_level =
+        std::hypot(std::max(std::abs(eye.x - part.low.x), std::abs(eye.x - part.high.x)),
+                   std::max(std::abs(eye.y - part.low.y), std::abs(eye.y - part.high.y)));
+    const double up = std::abs(eye.z - nearest.z);
+    const double level = std::max(std::clamp(up, nearest_level, farthest_level), 1e-6);
+    const double a_metre = bound.pixels_at_1m * level / (level * level + up * up);
+    for (std::size_t k = 0; k < kLevels; ++k) {
+      // A side that the neighbour has coarser moves the cells beside it too.
+      const double share =
+          stretch_share(bound, part, eye, std::ldexp(terrain.spacing_m(), static_cast<int>(k)));
       pixels[k] = std::max(
-          pixels[k],
-          static_cast<float>(a_metre * static_cast<double>(terrain.patch(patch).errors_m[quarter][k])));
+          pixels[k], static_cast<float>(a_metre * share *
+                                        static_cast<double>(terrain.patch(patch).errors_m[quarter][k])));
+    }
   }
   return pixels;
 }

@@ -26,12 +26,18 @@ float level_for(const LevelErrors& errors, double allowed);
 /// How a view sees errors.
 struct ErrorBound {
   double pixels = 1.0;
+  /// Times that the picture's corner is stretched more than its middle.
+  double corner_stretch = 1.0;
+  /// Where the camera looks, unit, in the frame: places near there are stretched less. Zero: everything
+  /// counts as though it were seen in the corner.
+  dvec3 axis{0.0};
   /// Pixels that a metre across the line of sight, a metre away, covers at the most: in a corner of the
   /// picture, where a plane picture is stretched.
   double pixels_at_1m = 1000.0;
 };
 /// @param fov_y_deg, aspect  of a pinhole camera
-ErrorBound error_bound(double pixels, double fov_y_deg, double aspect, int picture_height);
+/// @param axis  ErrorBound::axis
+ErrorBound error_bound(double pixels, double fov_y_deg, double aspect, int picture_height, const dvec3& axis);
 
 /// Pixels that the meshes of a patch's levels are off by on the screen at the most, seen from a place of the
 /// frame: the error of each quarter at its nearest point, from above only as much of it as stands across the

@@ -64,9 +64,10 @@ glm::vec3 post_normal(const Terrain& terrain, int column, int row) {
   return glm::normalize(glm::cross(along_x, along_y));
 }
 
-std::vector<glm::vec3> post_colors(const Terrain& terrain, const GroundKnowledge& knowledge) {
+std::vector<glm::vec4> post_colors(const Terrain& terrain, const GroundKnowledge& knowledge,
+                                   const planet::Coloring* coloring) {
   const PostRect& posts = terrain.posts();
-  std::vector<glm::vec3> colors(static_cast<std::size_t>(posts.columns) *
+  std::vector<glm::vec4> colors(static_cast<std::size_t>(posts.columns) *
                                 static_cast<std::size_t>(posts.rows));
   for_each_post(terrain, [&](int column, int row, std::size_t k) {
     const glm::vec3 n = post_normal(terrain, column, row);
@@ -85,7 +86,10 @@ std::vector<glm::vec3> post_colors(const Terrain& terrain, const GroundKnowledge
     ground.sin_latitude = normal.z;
     ground.edge_m = terrain.spacing_m();
     if (knowledge) knowledge(normal, ground);
-    colors[k] = planet::albedo(ground);
+    glm::vec3 color = planet::albedo(ground);
+    const bool water = !ground.bare_floor && planet::is_open_water(ground, color);
+    if (coloring != nullptr) color = (*coloring)(ground, color);
+    colors[k] = glm::vec4(color, water ? 1.0f : 0.0f);
   });
   return colors;
 }
@@ -123,7 +127,7 @@ float sun_seen(const Terrain& terrain, int column, int row, const dvec3& sun) {
   return static_cast<float>(1.0 - glm::smoothstep(rise - half_disc, rise + half_disc, highest));
 }
 
-std::vector<glm::u8vec4> light_posts(const Terrain& terrain, const std::vector<glm::vec3>& colors,
+std::vector<glm::u8vec4> light_posts(const Terrain& terrain, const std::vector<glm::vec4>& colors,
                                      const dvec3& sun, bool shadows) {
   std::vector<glm::u8vec4> texels(colors.size());
   const double radius = terrain.frame().ellipsoid().mean_radius();
@@ -132,7 +136,7 @@ std::vector<glm::u8vec4> light_posts(const Terrain& terrain, const std::vector<g
     const glm::vec3 up(glm::normalize(dvec3(terrain.x_m(column), terrain.y_m(row), radius)));
     float facing = std::max(glm::dot(normal, glm::vec3(sun)), 0.0f);
     if (shadows && facing > 0.0f) facing *= sun_seen(terrain, column, row, sun);
-    const glm::vec4 lit = clipmap::lit_texel(colors[k], glm::dot(normal, up), facing);
+    const glm::vec4 lit = clipmap::lit_texel(glm::vec3(colors[k]), glm::dot(normal, up), facing);
     texels[k] = {code(lit.r), code(lit.g), code(lit.b), code(lit.a)};
   });
   return texels;

@@ -91,6 +91,11 @@ Terrain::Terrain(const TangentFrame& frame, const HeightSource& source, const Po
   });
 }
 
+double Terrain::height_above(const dvec3& position) const {
+  const dvec3 local = frame_.local_from_ecef(position);
+  return local.z - z_at(local.x, local.y);
+}
+
 bool Terrain::covers(double x_m, double y_m) const {
   const double i = x_m / spacing_m_ - static_cast<double>(posts_.i0);
   const double j = y_m / spacing_m_ - static_cast<double>(posts_.j0);

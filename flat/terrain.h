@@ -62,6 +62,9 @@ class Terrain {
   double z_at(double x_m, double y_m) const;
   /// Whether the region lies under it.
   bool covers(double x_m, double y_m) const;
+  /// Height of a place over that mesh along the frame's vertical, metres.
+  /// @param position  ECEF
+  double height_above(const dvec3& position) const;
 
  private:
   std::size_t index(int column, int row) const {

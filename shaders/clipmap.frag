@@ -16,6 +16,10 @@ vec3 level_tint(float level) {
 }
 
 void main() {
+#ifdef ROOM
+  // As far as a pixel inside the room both grounds are drawn: between them is no gap, whatever rounding does.
+  if (all(greaterThan(shading.in_room, fwidth(shading.in_room)))) discard;
+#endif
   vec4 lit = at_pixel(lit_ground_of);
 #ifdef EFFECTS
   Place place = place_at(shading.relative, shading.height, shading.left);

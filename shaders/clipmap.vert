@@ -2,6 +2,7 @@
 #include "lib/clipmap.glsl"
 #include "lib/air_light.glsl"
 #include "lib/lit_ground.glsl"
+#include "lib/glint.glsl"
 #include "lib/view.glsl"
 
 // One layer of the windows: a level's share of one diamond. Mirrored by render::SlotBlock.
@@ -20,6 +21,10 @@ layout(location = 1) in ivec4 instance;  // corner 0 from the window's first nod
 
 layout(location = 0) uniform ivec4 window;       // texels of the torus, morph begin, morph end, m
 layout(location = 2) uniform int rim;            // bits 0-2: edges whose vertices are the coarser level's, 3-5: corners
+#ifdef ROOM
+layout(location = 5) uniform mat3 room_axes;     // in the world, columns: along the sides of the room, and up
+layout(location = 6) uniform vec4 eye_in_room;   // metres inside of the west, east, south and north side
+#endif
 
 // At silhouettes a pixel's middle may lie outside the triangle that one of its samples is in: centroid.
 out Shading {
@@ -45,6 +50,9 @@ out Shading {
 #endif
 #ifdef SEA
   centroid float depth;  // metres of water over the floor
+#endif
+#ifdef ROOM
+  vec4 in_room;  // metres inside of its sides
 #endif
 } shading;
 flat out vec3 layers;  // fine, coarse, level
@@ -120,10 +128,13 @@ void main() {
   layers = vec3(slot.coarse.w, slot.coarse.w, slot.coarse.z);
 #endif
 
+#ifdef ROOM
+  vec3 along = position * room_axes;
+  shading.in_room = eye_in_room + vec4(along.x, -along.x, along.y, -along.y);
+#endif
   AirLight light = air_light(position, height);
 #ifdef GLINT
-  vec3 half_way = normalize(view.sun.xyz - light.direction);
-  shading.glint = 0.22 / kSunRange * pow(max(dot(light.up, half_way), 0.0), 120.0) * step(0.0, light.cos_sun);
+  shading.glint = sun_glint(light);
 #endif
   shading.sunlight = light.sunlight * kSunRange;
   shading.skylight = light.skylight;

@@ -54,9 +54,13 @@ class Second {
   Long max_ = 0, squares_ = 0, weights_ = 0;
 };
 
+inline void expect_agreement(const app::accuracy::ErrorFigure& reported, const Second& second,
+                             const std::string& name) {
+  EXPECT_NEAR(reported.max / static_cast<double>(second.max()), 1.0, 0.05) << name;
+  EXPECT_NEAR(reported.rms / static_cast<double>(second.rms()), 1.0, 0.05) << name;
+}
 inline void expect_agreement(const Setting& reported, const Second& second) {
-  EXPECT_NEAR(reported.error.max / static_cast<double>(second.max()), 1.0, 0.05) << reported.name;
-  EXPECT_NEAR(reported.error.rms / static_cast<double>(second.rms()), 1.0, 0.05) << reported.name;
+  expect_agreement(reported.error, second, reported.name);
 }
 
 using Vec = std::array<Long, 3>;
@@ -78,7 +82,7 @@ inline Geodetic place_of(const dvec3& u) {
 /// The angle at the centre, by Kahan's half angles.
 inline Long angle(const Vec& a, const Vec& b) {
   Long apart = 0, together = 0;
-  for (int k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
     apart += (a[k] - b[k]) * (a[k] - b[k]);
     together += (a[k] + b[k]) * (a[k] + b[k]);
   }

@@ -21,8 +21,6 @@ namespace {
 namespace effects = globe::effects;
 using glm::dvec3;
 
-const effects::AirModel kModel;
-
 effects::ScatteredRay as_drawn(const ScatteringRay& ray) {
   return {glm::vec3(ray.eye), glm::vec3(ray.direction), static_cast<float>(ray.from),
           static_cast<float>(ray.to), glm::vec3(ray.sun)};

@@ -8,9 +8,7 @@ namespace {
 
 using globe::clipmap::Settings;
 
-constexpr PictureSize kPicture;
-constexpr int kDefault = 64;  ///< app/view_options.h
-constexpr int kRowsQuick = 9, kRowsFull = 36;
+constexpr int kDefaultDetail = 64;  ///< app/view_options.h
 
 Study study_of(const std::string& name, const std::string& title, const std::string& cost_unit, int rows) {
   return {"detail." + name,
@@ -59,7 +57,7 @@ std::vector<Study> detail_studies(const Scope& scope) {
   for (std::size_t k = 0; k < details.size(); ++k) {
     const std::shared_ptr<RepeatedFrame>& frame = made[k];
     const std::string name = "s = " + std::to_string(details[k]);
-    const bool is_default = details[k] == kDefault;
+    const bool is_default = details[k] == kDefaultDetail;
     frames.settings.push_back({name, errors[k], [=] { return frame->draw_ms(camera, sun); }, is_default});
     triangles.settings.push_back(
         {name, errors[k], fixed(static_cast<double>(frame->stats().triangles) * 1e-3), is_default});

@@ -16,15 +16,15 @@ namespace {
 
 namespace render = globe::render;
 
-constexpr int kSide = 512;  ///< of the dome's picture, pixels
-constexpr int kFiner = 4;   ///< pixels of the reference in one of the picture, across and down
+constexpr int kDomeSide = 512;  ///< of the dome's picture, pixels
+constexpr int kFiner = 4;       ///< pixels of the reference in one of the picture, across and down
 
-using Ground = std::shared_ptr<Remade<render::GlobeRenderer>>;  ///< what all domes show
+using DrawnGround = std::shared_ptr<Remade<render::GlobeRenderer>>;  ///< what all domes show
 
 /// A dome drawn from one place again and again.
 class Dome {
  public:
-  Dome(std::shared_ptr<globe::gl::Context> context, Ground ground, int side, int face_side,
+  Dome(std::shared_ptr<globe::gl::Context> context, DrawnGround ground, int side, int face_side,
        render::Camera camera, const glm::dvec3& sun)
       : context_(std::move(context)),
         ground_(std::move(ground)),
@@ -47,7 +47,7 @@ class Dome {
 
  private:
   std::shared_ptr<globe::gl::Context> context_;  ///< outlives what is made in it
-  Ground ground_;
+  DrawnGround ground_;
   render::WideView view_;
   globe::gl::Framebuffer target_;
   render::Camera camera_;
@@ -56,12 +56,12 @@ class Dome {
 
 /// Each pixel the mean of those of a picture kFiner times as large.
 std::vector<double> means(const std::vector<std::uint8_t>& fine) {
-  std::vector<double> result(std::size_t{kSide} * kSide * 4);
-  constexpr int kLarge = kSide * kFiner;
+  std::vector<double> result(std::size_t{kDomeSide} * kDomeSide * 4);
+  constexpr int kLarge = kDomeSide * kFiner;
   for (int y = 0; y < kLarge; ++y)
     for (int x = 0; x < kLarge; ++x)
       for (int c = 0; c < 4; ++c)
-        result[static_cast<std::size_t>((y / kFiner * kSide + x / kFiner) * 4 + c)] +=
+        result[static_cast<std::size_t>((y / kFiner * kDomeSide + x / kFiner) * 4 + c)] +=
             fine[static_cast<std::size_t>((y * kLarge + x) * 4 + c)] / double(kFiner * kFiner);
   return result;
 }
@@ -71,9 +71,9 @@ std::vector<double> means(const std::vector<std::uint8_t>& fine) {
 std::vector<Study> dome_studies(const Scope& scope) {
   const render::Camera camera = judged_views(*scope.planet, {})[3].camera;
   const glm::dvec3 sun = sun_over(*scope.planet, camera);
-  const Ground ground = remade<render::GlobeRenderer>(scope.planet, render::RenderSettings{});
+  const DrawnGround ground = remade<render::GlobeRenderer>(scope.planet, render::RenderSettings{});
   const std::vector<double> truth =
-      means(Dome(scope.context, ground, kSide * kFiner, 0, camera, sun).picture());
+      means(Dome(scope.context, ground, kDomeSide * kFiner, 0, camera, sun).picture());
   Study study{"domes.faces",
               "Texels of the cube that a dome's picture is made of",
               "--faces",
@@ -82,9 +82,9 @@ std::vector<Study> dome_studies(const Scope& scope) {
               "steps of 255",
               "ms a frame",
               {}};
-  const int usual = Dome(scope.context, ground, kSide, 0, camera, sun).face_side();
+  const int usual = Dome(scope.context, ground, kDomeSide, 0, camera, sun).face_side();
   for (const int side : {usual / 2, usual * 3 / 4, usual, usual * 2}) {
-    const auto dome = remade<Dome>(scope.context, ground, kSide, side, camera, sun);
+    const auto dome = remade<Dome>(scope.context, ground, kDomeSide, side, camera, sun);
     const std::vector<std::uint8_t> drawn = dome->get().picture();
     dome->release();
     ErrorSum sum;
@@ -92,7 +92,7 @@ std::vector<Study> dome_studies(const Scope& scope) {
       if (k % 4 == 3) continue;  // opaque
       sum.add(drawn[k] - truth[k], [&] {
         const auto pixel = static_cast<int>(k / 4);
-        return "pixel " + std::to_string(pixel % kSide) + "," + std::to_string(pixel / kSide);
+        return "pixel " + std::to_string(pixel % kDomeSide) + "," + std::to_string(pixel / kDomeSide);
       });
     }
     study.settings.push_back({std::to_string(side) + " a side",

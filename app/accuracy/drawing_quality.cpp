@@ -24,11 +24,10 @@ using globe::planet::Surface;
 
 constexpr int kFinest = 26;            ///< level of the finest triangles (render::RenderSettings::max_level)
 constexpr double kFinestCell = 0.125;  ///< pixels
-constexpr int kRowsQuick = 9, kRowsFull = 36;
 constexpr std::size_t kFramesQuick = 9, kFramesFull = 31;
 
 /// Pixels from the picture's middle, y up.
-glm::dvec2 pixel(const render::Camera& camera, const PictureSize& picture, const dvec3& relative) {
+glm::dvec2 pixel_of(const render::Camera& camera, const PictureSize& picture, const dvec3& relative) {
   const double w = glm::dot(relative, camera.forward);
   return {glm::dot(relative, camera.right) / (w * camera.tan_x()) * picture.width / 2.0,
           glm::dot(relative, camera.up) / (w * camera.tan_y()) * picture.height / 2.0};
@@ -43,8 +42,8 @@ double error_at(const Surface& surface, const render::Camera& camera, const Pict
   const int level = static_cast<int>(std::ceil(std::log2(surface.root_edge() / cell_m)));
   const double height_m = surface.drawn_height(surface.height(u, std::clamp(level, point.level, kFinest)));
   const dvec3 finest = geo::ecef_from_normal(surface.ellipsoid(), u, height_m);
-  return glm::length(pixel(camera, picture, finest - camera.position) -
-                     pixel(camera, picture, point.position - camera.position));
+  return glm::length(pixel_of(camera, picture, finest - camera.position) -
+                     pixel_of(camera, picture, point.position - camera.position));
 }
 
 }  // namespace
@@ -107,6 +106,7 @@ std::vector<ErrorFigure> drawn_errors(const std::vector<Settings>& settings,
     }
   }
   std::vector<ErrorFigure> figures;
+  figures.reserve(sums.size());
   for (const ErrorSum& sum : sums) figures.push_back(sum.figure());
   return figures;
 }
@@ -137,6 +137,7 @@ std::vector<DrawingQuality> drawing_quality(const std::shared_ptr<globe::gl::Con
                                             const std::shared_ptr<const Surface>& surface,
                                             const PictureSize& picture, const Scope& scope) {
   std::vector<Settings> settings;
+  settings.reserve(details.size());
   for (const int detail : details) settings.push_back(Settings::for_detail(detail));
   const std::vector<ErrorFigure> errors =
       drawn_errors(settings, surface, picture, scope.full ? kRowsFull : kRowsQuick);

@@ -20,6 +20,9 @@ struct PictureSize {
   int height = 720;
   double fov_y_deg = 60.0;
 };
+inline constexpr PictureSize kPicture;
+
+inline constexpr int kRowsQuick = 9, kRowsFull = 36;  ///< of its pixels, where a study looks
 
 /// A view that a planet's drawing is judged by.
 struct JudgedView {

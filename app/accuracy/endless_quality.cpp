@@ -35,15 +35,15 @@ std::optional<double> ground_z(const fractal::Terrain& terrain, const glm::dvec2
                        posts.x - static_cast<double>(i), posts.y - static_cast<double>(j));
 }
 
-void add_block(const fractal::Terrain& terrain, const fractal::BlockDraw& draw, SeenGround& seen) {
+void add_block(const fractal::Terrain& terrain, const fractal::BlockDraw& draw, const glm::dvec3& eye,
+               SeenGround& seen) {
   const fractal::Pager& pager = terrain.pager();
   const double spacing = terrain.spacing_m();
   const fractal::BlockKey first = pager.first();
   const int side = pager.cells() + 1;
   const auto corner = [&](std::uint16_t post) {
     const int i = post % side, j = post / side;
-    const float height =
-        pager.heights(draw.slot)[static_cast<std::size_t>((j + 1) * pager.posts_with_rim() + i + 1)];
+    const float height = terrain.drawn_height_m(draw, i, j, {eye.x, eye.y});
     return glm::dvec3(static_cast<double>((first.x + draw.column) * pager.cells() + i) * spacing,
                       static_cast<double>((first.y + draw.row) * pager.cells() + j) * spacing,
                       static_cast<double>(height));
@@ -105,7 +105,7 @@ ErrorFigure displacement(const fractal::TerrainSettings& settings, const std::ve
     camera.position = view.eye * glm::dvec3(spacing, spacing, 1.0);
     SeenGround seen(camera, picture.width, picture.height);
     for (int block = 0; block < pager.blocks() * pager.blocks(); ++block)
-      add_block(terrain, terrain.block_draw(block % pager.blocks(), block / pager.blocks()), seen);
+      add_block(terrain, terrain.block_draw(block % pager.blocks(), block / pager.blocks()), view.eye, seen);
     seen.add_displacements(
         view.name,
         [&](double x, double y) {

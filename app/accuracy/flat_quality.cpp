@@ -66,9 +66,9 @@ std::optional<double> move_on_screen(const render::Camera& camera, const Picture
 /// @param camera  in the frame
 std::vector<float> levels_from(const flat::Terrain& terrain, const render::Camera& camera, flat::Morph morph,
                                double error_px, const PictureSize& picture) {
-  return flat::patch_levels(terrain, camera.position,
-                            flat::error_bound(error_px, camera.fov_y_deg, camera.aspect, picture.height),
-                            morph);
+  return flat::patch_levels(
+      terrain, camera.position,
+      flat::error_bound(error_px, camera.fov_y_deg, camera.aspect, picture.height, camera.forward), morph);
 }
 
 /// A corner of a drawn triangle: its post, counted from the region's south-west, and z.

@@ -14,7 +14,6 @@ namespace {
 
 namespace flat = globe::flat;
 
-constexpr PictureSize kPicture;
 constexpr double kDefaultError = 1.0;  ///< app/flat.cpp
 const std::string kRegion = "8 km of fractal hills, 513x513 posts";
 
@@ -176,7 +175,7 @@ void add_rings(const Scope& scope, std::vector<Study>& studies) {
     const auto ground = endless_ground(rings);
     const ErrorFigure error = rings ? displacement(ground, views, kPicture) : ErrorFigure{};
     const auto frame = remade<EndlessFrame>(scope.context, ground, kPicture);
-    const EndlessView view = views.front();
+    const EndlessView& view = views.front();
     frame->get().draw_ms(view);
     const std::size_t triangles = frame->get().triangles();
     frame->release();

@@ -5,15 +5,15 @@
 
 #include "app/accuracy/samples.h"
 #include "app/accuracy/vincenty.h"
+#include "globe/base/angles.h"
 #include "globe/geo/geodesic.h"
 
 namespace app::accuracy {
 namespace {
 
+using globe::kDegree;
 using globe::geo::Geodetic;
 using globe::geo::kWgs84;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::string place_text(const PlacePair& pair) {
   char text[96];

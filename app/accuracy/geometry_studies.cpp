@@ -5,6 +5,7 @@
 #include <random>
 
 #include "app/accuracy/samples.h"
+#include "globe/base/angles.h"
 #include "globe/geo/arctangent.h"
 #include "globe/geo/area.h"
 #include "globe/geo/ellipsoid.h"
@@ -14,6 +15,7 @@
 namespace app::accuracy {
 namespace {
 
+using globe::kDegree;
 using globe::geo::Geodetic;
 using globe::htm::dvec3;
 using Long = long double;
@@ -34,15 +36,14 @@ double distance(const std::array<Long, 3>& truth, const dvec3& found, double rad
 using Places = std::shared_ptr<const std::vector<Geodetic>>;
 
 dvec3 library_normal(const Geodetic& place) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   const double lat = place.lat_deg * kDegree, lon = place.lon_deg * kDegree;
   return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
 }
 
 dvec3 float_normal(const Geodetic& place) {
-  constexpr float kDegree = std::numbers::pi_v<float> / 180.0F;
-  const float lat = static_cast<float>(place.lat_deg) * kDegree,
-              lon = static_cast<float>(place.lon_deg) * kDegree;
+  constexpr float kFloatDegree = std::numbers::pi_v<float> / 180.0F;
+  const float lat = static_cast<float>(place.lat_deg) * kFloatDegree,
+              lon = static_cast<float>(place.lon_deg) * kFloatDegree;
   return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
 }
 

@@ -70,7 +70,7 @@ std::vector<ProbeVertex> MeshProbe::triangles(const globe::clipmap::ClipmapState
                                               const Camera& camera, int finest, float fade, Space space,
                                               bool all_as_rim) const {
   const DrawList list = globe::render::make_draw_list(settings_, state, textures, surface_->ellipsoid(),
-                                                      camera, finest, fade, false);
+                                                      camera, {finest, fade}, false);
   globe::render::ViewBlock view = globe::render::view_block(camera, *surface_, dvec3(1.0, 0.0, 0.0), 0.05);
   if (space == Space::kRelative) view.clip_from_relative = glm::mat4(1.0f);
   const Buffer view_buffer(sizeof view, &view);

@@ -10,9 +10,8 @@ namespace {
 
 using globe::clipmap::Settings;
 
-constexpr int kDetail = 64;
-constexpr int kFinest = 24;  ///< level
-constexpr PictureSize kPicture;
+constexpr int kMorphedDetail = 64;
+constexpr int kFinestMorphed = 24;  ///< level
 
 }  // namespace
 
@@ -34,12 +33,12 @@ std::vector<Study> morph_studies(const Scope& scope) {
   const Camera camera = judged_views(*surface, kPicture)[3].camera;
   const glm::dvec3 sun = sun_over(*surface, camera);
   for (const bool morph : {false, true}) {
-    Settings settings = Settings::for_detail(kDetail, 0);
+    Settings settings = Settings::for_detail(kMorphedDetail, 0);
     settings.morph = morph;
     MeshProbe probe(surface, settings);
     ErrorSum sum;
     for (const auto& place : at) {
-      for (int level = settings.base_level + 1; level <= kFinest; level += step)
+      for (int level = settings.base_level + 1; level <= kFinestMorphed; level += step)
         add_pops(*surface, probe, place, level, morph ? 1.0f : 0.0f, sum);
     }
     globe::render::RenderSettings ground;

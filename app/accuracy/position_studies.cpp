@@ -145,6 +145,7 @@ std::vector<Study> position_studies(const Scope& scope) {
   const std::shared_ptr<const Surface>& surface = scope.planet;
   const auto at = position_places(scope);
   std::vector<Study> studies;
+  studies.reserve(kHeights.size());
   for (const PositionHeight& height : kHeights) studies.push_back(mode_study(height, at.size()));
   std::vector<std::vector<Seen>> seen(kHeights.size());
   for (const Mode& mode : kModes) {

@@ -14,7 +14,7 @@ namespace app::accuracy {
 namespace {
 
 constexpr double kHighStep = 65536.0;  ///< metres
-constexpr double kNear = 0.05;         ///< metres
+constexpr double kNearPlane = 0.05;    ///< metres
 
 /// Mirrors `Eye` in shaders/accuracy/position.vert (std140).
 struct EyeBlock {
@@ -113,7 +113,7 @@ YardstickMesh::YardstickMesh(std::shared_ptr<globe::gl::Context> context, Yardst
   const auto x = words_of(yardstick, camera.position.x), y = words_of(yardstick, camera.position.y),
              z = words_of(yardstick, camera.position.z);
   EyeBlock eye;
-  eye.clip_from_relative = glm::mat4(globe::render::clip_from_relative(camera, kNear));
+  eye.clip_from_relative = glm::mat4(globe::render::clip_from_relative(camera, kNearPlane));
   eye.high_words = {x[0], y[0], z[0], 0};
   eye.low_words = {x[1], y[1], z[1], 0};
   eye.high = glm::uintBitsToFloat(eye.high_words);

@@ -18,8 +18,7 @@
 namespace app::accuracy {
 namespace {
 
-constexpr int kSide = kEdgeSide;
-constexpr PictureSize kPicture;
+constexpr int kSampleSide = kEdgeSide;
 
 /// Share of a pixel's area on the drawn side: the square cut along the line, by the shoelace formula.
 double covered(const Edge& edge, const glm::dvec2& corner) {
@@ -46,7 +45,7 @@ double covered(const Edge& edge, const glm::dvec2& corner) {
 ErrorFigure edge_error(int samples) {
   globe::gl::FramebufferFormat format;
   format.samples = samples;
-  const globe::gl::Framebuffer target(kSide, kSide, format);
+  const globe::gl::Framebuffer target(kSampleSide, kSampleSide, format);
   globe::gl::ProgramSources sources;
   sources.files = {"accuracy/half_plane.vert", "accuracy/plain.frag"};
   const globe::gl::Program program(sources);
@@ -59,16 +58,16 @@ ErrorFigure edge_error(int samples) {
     target.clear_color(0.0f, 0.0f, 0.0f, 1.0f);
     array.bind();
     program.use();
-    program.set(0, glm::vec4(edge.normal, edge.offset, 0.5 * kSide));
+    program.set(0, glm::vec4(edge.normal, edge.offset, 0.5 * kSampleSide));
     glDrawArrays(GL_TRIANGLES, 0, 3);
     target.resolve();
     const std::vector<std::uint8_t> picture = target.read_rgba8();
-    for (int y = 0; y < kSide; ++y) {
-      for (int x = 0; x < kSide; ++x) {
+    for (int y = 0; y < kSampleSide; ++y) {
+      for (int x = 0; x < kSampleSide; ++x) {
         // The picture's first row is its top.
-        const double share = covered(edge, {x - 0.5 * kSide, 0.5 * kSide - 1.0 - y});
+        const double share = covered(edge, {x - 0.5 * kSampleSide, 0.5 * kSampleSide - 1.0 - y});
         if (share <= 0.0 || share >= 1.0) continue;
-        const double shown = picture[4 * static_cast<std::size_t>(y * kSide + x)] / 255.0;
+        const double shown = picture[4 * static_cast<std::size_t>(y * kSampleSide + x)] / 255.0;
         sum.add(100.0 * (shown - share), [&] {
           char text[64];
           std::snprintf(text, sizeof text, "edge at %.1f degrees, pixel %d,%d",

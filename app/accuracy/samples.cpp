@@ -3,17 +3,16 @@
 #include <GeographicLib/Geodesic.hpp>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "globe/base/angles.h"
 #include "globe/planet/interpolation.h"
 
 namespace app::accuracy {
 namespace {
 
+using globe::kDegree;
 using globe::geo::Geodetic;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 }  // namespace
 

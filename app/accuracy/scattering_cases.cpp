@@ -14,8 +14,6 @@ namespace {
 
 using glm::dvec3;
 
-const globe::effects::AirModel kModel;
-
 dvec3 direction(double elevation_deg, double azimuth_deg) {
   const double e = elevation_deg * std::numbers::pi / 180.0, a = azimuth_deg * std::numbers::pi / 180.0;
   return {std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};

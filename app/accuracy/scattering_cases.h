@@ -7,6 +7,8 @@
 
 namespace app::accuracy {
 
+inline const globe::effects::AirModel kModel;  ///< the default
+
 /// Looks through the air of the default model whose light is known: from the ground, the air and space, from
 /// noon to the end of civil twilight, the limb and the ground from above among them.
 struct ScatteringCase {

@@ -19,12 +19,12 @@ using Model = globe::effects::AirModel;
 constexpr double kPi = std::numbers::pi;
 
 /// Five-point Gauss-Legendre quadrature (Abramowitz and Stegun 1964, table 25.4), on [-1, 1].
-constexpr std::array kNodes{-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
-                            0.9061798459386640};
-constexpr std::array kWeights{0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,
-                              0.2369268850561891};
+constexpr std::array kGaussNodes{-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
+                                 0.9061798459386640};
+constexpr std::array kGaussWeights{0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
+                                   0.4786286704993665, 0.2369268850561891};
 
-double largest(const dvec3& v) { return std::max({v.x, v.y, v.z}); }
+double strongest(const dvec3& v) { return std::max({v.x, v.y, v.z}); }
 double mean(const dvec3& v) { return (v.x + v.y + v.z) / 3.0; }
 
 struct Air {
@@ -66,10 +66,11 @@ dvec3 sunlight(const Model& model, const dvec3& p, const dvec3& sun) {
     constexpr int kPanels = 6;
     if (length <= 0.0) return;
     for (int panel = 0; panel < kPanels; ++panel) {
-      for (std::size_t k = 0; k < kNodes.size(); ++k) {
-        const double x = (panel + 0.5 + 0.5 * kNodes[k]) / kPanels;
+      for (std::size_t k = 0; k < kGaussNodes.size(); ++k) {
+        const double x = (panel + 0.5 + 0.5 * kGaussNodes[k]) / kPanels;
         const dvec3 at = p + sun * (lowest + side * length * x * x);
-        depth += air_at(model, height(model, at)).extinct * (length * 2.0 * x * kWeights[k] * 0.5 / kPanels);
+        depth +=
+            air_at(model, height(model, at)).extinct * (length * 2.0 * x * kGaussWeights[k] * 0.5 / kPanels);
       }
     }
   };
@@ -170,7 +171,7 @@ class Paths {
       const ScatteringRay ray = scattering_ray(model_, p, direction, sun_);
       const Way way(model_, p, direction, 0.0, ray.to, 32);
       const bool down = glm::length(way.at(ray.to)) < model_.ground_km + 1e-3;
-      const double to_ground = down ? largest(way.left()) * model_.albedo : 0.0;
+      const double to_ground = down ? strongest(way.left()) * model_.albedo : 0.0;
       const double chance = to_ground / (to_ground + 1.0 - mean(way.left()));
       if (down && unit() < chance) {
         p = way.at(ray.to);
@@ -189,11 +190,11 @@ class Paths {
       }
       if (order > 3) {  // Russian roulette, against what a path of this kind carries
         const double live =
-            std::min(0.8, largest(weight) * (on_ground_ ? 1.0 : largest(scattered(p))) / scale_);
+            std::min(0.8, strongest(weight) * (on_ground_ ? 1.0 : strongest(scattered(p))) / scale_);
         if (unit() >= live) break;
         weight /= live;
       } else if (order == 2) {
-        scale_ = std::max(largest(weight) * (on_ground_ ? 1.0 : largest(scattered(p))), 1e-300);
+        scale_ = std::max(strongest(weight) * (on_ground_ ? 1.0 : strongest(scattered(p))), 1e-300);
       }
     }
     on_ground_ = false;
@@ -228,7 +229,7 @@ class Paths {
     const double density = share / (4.0 * kPi) + (1.0 - share) * henyey_greenstein(model_, c);
     weight *= turned(model_, air, c) / density;
     direction = turned_by(direction, c, 2.0 * kPi * unit());
-    return largest(weight) > 0.0;
+    return strongest(weight) > 0.0;
   }
 
   const Model& model_;
@@ -301,7 +302,7 @@ ScatteredLight scattered_light(const Model& model, const ScatteringRay& ray, dou
     result.again = sum / n;
     result.interval = 1.96 * glm::sqrt(glm::max(squares / n - result.again * result.again, dvec3(0.0)) /
                                        std::max(n - 1.0, 1.0));
-  } while (batches < 20 || (batches * kBatch < most && largest(result.interval / result.sum()) > interval));
+  } while (batches < 20 || (batches * kBatch < most && strongest(result.interval / result.sum()) > interval));
   return result;
 }
 

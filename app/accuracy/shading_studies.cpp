@@ -95,7 +95,7 @@ Study tone_study(const std::shared_ptr<globe::gl::Context>& context) {
 }
 
 /// A patch of ground of all colours and slopes on one diamond.
-struct Ground {
+struct ShadedGround {
   static constexpr int kLevel = 14;
   static constexpr int kSide = 65;
 
@@ -105,7 +105,7 @@ struct Ground {
   std::vector<glm::dvec2> slope;  ///< of the unit normal, along the diamond's shading frame
   globe::clipmap::ShadingNodes stored;
 
-  Ground(int diamond, int i, int j, std::mt19937_64& random)
+  ShadedGround(int diamond, int i, int j, std::mt19937_64& random)
       : d(diamond), nodes{i, i + kSide - 1, j, j + kSide - 1} {
     stored.resize(nodes);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -134,10 +134,10 @@ struct Lit {
 };
 
 /// The sun's parts exactly, in double.
-Lit lit_exactly(const Ground& ground, std::size_t k, const dvec3& sun) {
-  const int i = ground.nodes.i0 + static_cast<int>(k) % Ground::kSide,
-            j = ground.nodes.j0 + static_cast<int>(k) / Ground::kSide;
-  const dvec3 u = globe::planet::node_direction({ground.d, Ground::kLevel, i, j});
+Lit lit_exactly(const ShadedGround& ground, std::size_t k, const dvec3& sun) {
+  const int i = ground.nodes.i0 + static_cast<int>(k) % ShadedGround::kSide,
+            j = ground.nodes.j0 + static_cast<int>(k) / ShadedGround::kSide;
+  const dvec3 u = globe::planet::node_direction({ground.d, ShadedGround::kLevel, i, j});
   const dvec3 axis = globe::clipmap::shading_axis(ground.d);
   const dvec3 t1 = glm::normalize(axis - u * glm::dot(u, axis)), t2 = glm::cross(u, t1);
   const glm::dvec2& slope = ground.slope[k];
@@ -160,7 +160,7 @@ glm::vec4 rounded(const glm::vec4& texel, float steps) { return glm::round(texel
 
 Study texel_study() {
   Study study{"shading.texels",
-              "Ground lit before it is drawn",
+              "ShadedGround lit before it is drawn",
               "",
               "albedo, slope and sun as they are, in double",
               "33,800 nodes of all slopes to 70 degrees on eight patches, from dawn to noon; shown by the "
@@ -169,9 +169,9 @@ Study texel_study() {
               "bytes a texel",
               {}};
   std::mt19937_64 random(51);
-  std::vector<Ground> patches;
-  const int n = globe::planet::nodes_per_side(Ground::kLevel);
-  std::uniform_int_distribution<int> node(0, n - Ground::kSide);
+  std::vector<ShadedGround> patches;
+  const int n = globe::planet::nodes_per_side(ShadedGround::kLevel);
+  std::uniform_int_distribution<int> node(0, n - ShadedGround::kSide);
   for (int k = 0; k < 8; ++k)
     patches.emplace_back(k % globe::planet::kDiamonds, node(random), node(random), random);
   using Stored = glm::vec4 (*)(const Lit&);
@@ -187,14 +187,14 @@ Study texel_study() {
   for (const auto& [name, bytes, stored] : ways) {
     ErrorSum sum;
     for (std::size_t p = 0; p < patches.size(); ++p) {
-      const Ground& ground = patches[p];
+      const ShadedGround& ground = patches[p];
       const dvec3 u =
-          globe::planet::node_direction({ground.d, Ground::kLevel, ground.nodes.i0, ground.nodes.j0});
+          globe::planet::node_direction({ground.d, ShadedGround::kLevel, ground.nodes.i0, ground.nodes.j0});
       // The sun from 3 to 80 degrees above the horizon there.
       const double high = (3.0 + 11.0 * static_cast<double>(p)) * std::numbers::pi / 180.0;
       const dvec3 aside = glm::normalize(glm::cross(u, dvec3(0.3, 0.5, 0.8)));
       const dvec3 sun = std::sin(high) * u + std::cos(high) * aside;
-      const auto drawn = globe::clipmap::lit_nodes({sun, false}, Ground::kLevel, ground.d, ground.nodes,
+      const auto drawn = globe::clipmap::lit_nodes({sun, false}, ShadedGround::kLevel, ground.d, ground.nodes,
                                                    ground.nodes, ground.stored);
       for (std::size_t k = 0; k < drawn.size(); ++k) {
         const Lit lit = lit_exactly(ground, k, sun);

@@ -25,8 +25,7 @@ constexpr double kGround = 6371.0;  ///< km
 constexpr double kTop = kGround + 80.0;
 constexpr double kDark = 2e-3;  ///< of sunlight: a hundredth of the screen's white
 constexpr std::array kSuns{60.0, 20.0, 5.0, 0.5, -2.0, -6.0};  ///< degrees above the horizon of a level eye
-constexpr PictureSize kPicture;
-constexpr render::AirSteps kDefault;
+constexpr render::AirSteps kDefaultSteps;
 
 /// A ray and words for it.
 struct AirCase {
@@ -36,7 +35,7 @@ struct AirCase {
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
-dvec3 direction(double elevation_deg, double azimuth_deg) {
+dvec3 unit_vector(double elevation_deg, double azimuth_deg) {
   const double e = radians(elevation_deg), a = radians(azimuth_deg);
   return {std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
 }
@@ -70,7 +69,7 @@ std::vector<AirCase> sky_cases() {
               eye_km > 80.0 ? -std::acos((kGround + value) / eye.z) * 180.0 / std::numbers::pi : value;
           cases.push_back(
               {text_of(eye_km, sun_deg, eye_km > 80.0 ? "limb, km" : "look, deg", value, azimuth_deg),
-               through_air(eye, direction(elevation, azimuth_deg), direction(sun_deg, 0.0))});
+               through_air(eye, unit_vector(elevation, azimuth_deg), unit_vector(sun_deg, 0.0))});
         }
       }
     }
@@ -94,7 +93,7 @@ std::vector<AirCase> haze_cases() {
           const double a = radians(azimuth_deg);
           const dvec3 ground =
               kGround * dvec3(std::sin(turn) * std::cos(a), std::sin(turn) * std::sin(a), std::cos(turn));
-          ReferenceRay ray = through_air(eye, glm::normalize(ground - eye), direction(sun_deg, 0.0));
+          ReferenceRay ray = through_air(eye, glm::normalize(ground - eye), unit_vector(sun_deg, 0.0));
           ray.to = glm::length(ground - eye);
           cases.push_back({text_of(eye_km, sun_deg, "ground, km", away_km, azimuth_deg), ray});
         }
@@ -111,7 +110,7 @@ render::AirRay as_drawn(const ReferenceRay& ray) {
 
 double largest(const dvec3& light) { return std::max({light.x, light.y, light.z}); }
 
-void add(ErrorSum& sum, const dvec3& light, const dvec3& truth, const std::string& place) {
+void add_error(ErrorSum& sum, const dvec3& light, const dvec3& truth, const std::string& place) {
   const double brightness = std::max(largest(truth), kDark);
   sum.add(100.0 * largest(glm::abs(light - truth)) / brightness, [&] { return place; });
 }
@@ -173,11 +172,11 @@ Study step_study(const Frames& frames) {
   for (const int steps : {8, 16, 32, 64}) {
     ErrorSum sum;
     for (std::size_t k = 0; k < cases.size(); ++k)
-      add(sum, render::sky_light(as_drawn(cases[k].ray), steps), truth[k], cases[k].name);
+      add_error(sum, render::sky_light(as_drawn(cases[k].ray), steps), truth[k], cases[k].name);
     render::AirSteps air;
     air.sky = steps;
     study.settings.push_back(frames.setting(std::to_string(steps) + " steps", sum.figure(), air,
-                                            kPicture.width, kPicture.height, steps == kDefault.sky));
+                                            kPicture.width, kPicture.height, steps == kDefaultSteps.sky));
   }
   return study;
 }
@@ -190,7 +189,7 @@ Study model_study() {
   using Light = dvec3 (*)(const ReferenceRay&);
   const std::array<std::pair<const char*, Light>, 5> ways{
       {{"as drawn",
-        [](const ReferenceRay& ray) { return dvec3(render::sky_light(as_drawn(ray), kDefault.sky)); }},
+        [](const ReferenceRay& ray) { return dvec3(render::sky_light(as_drawn(ray), kDefaultSteps.sky)); }},
        {"rays integrated",
         [](const ReferenceRay& ray) { return sky_parts(Columns::kApproximate, ray).tinted_sum(); }},
        {"rays integrated, Mie colours",
@@ -205,7 +204,7 @@ Study model_study() {
     const Light light = way.second;
     ErrorSum sum;
     for (std::size_t k = 0; k < cases->size(); ++k)
-      add(sum, light((*cases)[k].ray), truth[k], (*cases)[k].name);
+      add_error(sum, light((*cases)[k].ray), truth[k], (*cases)[k].name);
     constexpr std::size_t kTimed = 2;
     study.settings.push_back({way.first, sum.figure(),
                               timed(
@@ -289,7 +288,7 @@ class SkyMap {
         const glm::vec2 place = glm::vec2(x, y) / glm::vec2(size - 1);
         const glm::vec4 texel = render::sky_texel(
             as_drawn(through_air(eye, toward(render::sky_map_cosines(place, radius_, float(kGround))), sun)),
-            kDefault.sky);
+            kDefaultSteps.sky);
         texels_.push_back(glm::unpackHalf(glm::packHalf(texel)));
       }
     }
@@ -332,7 +331,7 @@ Study map_study(const Frames& frames) {
     for (const double eye_km : {0.002, 3.0, 12.0, 400.0}) {
       const dvec3 eye(0.0, 0.0, kGround + eye_km);
       for (const double sun_deg : kSuns) {
-        const dvec3 sun = direction(sun_deg, 0.0);
+        const dvec3 sun = unit_vector(sun_deg, 0.0);
         const SkyMap map(size, eye, sun);
         for (int k = 0; k < kRays; ++k) {
           // Spread evenly over the map, so that as many lie by the horizon as the map has rows there.
@@ -340,10 +339,10 @@ Study map_study(const Frames& frames) {
           const glm::dvec2 cosines(render::sky_map_cosines(place, float(eye.z), float(kGround)));
           const ReferenceRay ray = through_air(eye, SkyMap::toward(cosines), sun);
           const auto cos_angle = static_cast<float>(glm::dot(ray.direction, sun));
-          add(sum, render::with_mie(map.at(cosines), cos_angle),
-              render::sky_light(as_drawn(ray), kDefault.sky),
-              text_of(eye_km, sun_deg, "look's cosine", cosines.y,
-                      std::acos(cosines.x) * 180.0 / std::numbers::pi));
+          add_error(sum, render::with_mie(map.at(cosines), cos_angle),
+                    render::sky_light(as_drawn(ray), kDefaultSteps.sky),
+                    text_of(eye_km, sun_deg, "look's cosine", cosines.y,
+                            std::acos(cosines.x) * 180.0 / std::numbers::pi));
         }
       }
     }
@@ -351,7 +350,7 @@ Study map_study(const Frames& frames) {
     air.map = size;
     study.settings.push_back(frames.setting(std::to_string(size.x) + " x " + std::to_string(size.y),
                                             sum.figure(), air, kPicture.width, kPicture.height,
-                                            size == kDefault.map));
+                                            size == kDefaultSteps.map));
   }
   return study;
 }
@@ -366,11 +365,11 @@ Study haze_study(const Frames& frames) {
   for (const int steps : {2, 4, 8}) {
     ErrorSum sum;
     for (std::size_t k = 0; k < cases.size(); ++k)
-      add(sum, render::haze(as_drawn(cases[k].ray), steps), truth[k], cases[k].name);
+      add_error(sum, render::haze(as_drawn(cases[k].ray), steps), truth[k], cases[k].name);
     render::AirSteps air;
     air.haze = steps;
-    study.settings.push_back(
-        frames.setting(std::to_string(steps) + " steps", sum.figure(), air, 64, 36, steps == kDefault.haze));
+    study.settings.push_back(frames.setting(std::to_string(steps) + " steps", sum.figure(), air, 64, 36,
+                                            steps == kDefaultSteps.haze));
   }
   return study;
 }

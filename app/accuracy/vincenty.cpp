@@ -1,12 +1,13 @@
 #include "app/accuracy/vincenty.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "globe/base/angles.h"
 
 namespace app::accuracy {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+using globe::kDegree;
 
 }  // namespace
 

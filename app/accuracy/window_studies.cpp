@@ -10,8 +10,6 @@ namespace {
 
 using globe::clipmap::Windows;
 
-constexpr PictureSize kPicture;
-
 }  // namespace
 
 std::vector<Study> window_studies(const Scope& scope) {

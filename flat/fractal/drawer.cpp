@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <cmath>
+#include <cstddef>
 #include <glm/geometric.hpp>
 
 namespace globe::flat::fractal {
@@ -21,7 +22,8 @@ Drawer::Drawer(Terrain& terrain, const Look& look)
       sun_(program_.uniform("to_sun")),
       sky_(program_.uniform("sky")),
       per_sight_(program_.uniform("per_sight")),
-      relief_(program_.uniform("base_and_relief")) {
+      relief_(program_.uniform("base_and_relief")),
+      bands_(program_.uniform("bands")) {
   const Pager& pager = terrain.pager();
   std::vector<std::uint16_t> indices;
   for (int level = 0; level < kLevels; ++level) {
@@ -48,6 +50,8 @@ Drawer::Drawer(Terrain& terrain, const Look& look)
   array_.set_indices(indices_);
   array_.set_vertices(0, vertices_, 0, sizeof(Vertex));
   array_.set_attribute(0, {.location = 0, .components = 3});
+  array_.set_attribute(0, {.location = 2, .components = 3, .offset = offsetof(Vertex, one)});
+  array_.set_attribute(0, {.location = 3, .components = 3, .offset = offsetof(Vertex, other)});
   array_.set_vertices(1, corners_, 0, sizeof(glm::ivec2), 1);
   array_.set_attribute(
       1, {.location = 1, .components = 2, .type = GL_INT, .kind = gl::Attribute::Kind::kInteger});
@@ -62,7 +66,19 @@ void Drawer::upload(int slot) {
   for (int row = 1; row < rim_posts - 1; ++row) {
     for (int column = 1; column < rim_posts - 1; ++column) {
       const float* at = heights + row * rim_posts + column;
-      *to++ = {at[0], (at[1] - at[-1]) * per_two, (at[rim_posts] - at[-rim_posts]) * per_two};
+      (to++)->post = {at[0], (at[1] - at[-1]) * per_two, (at[rim_posts] - at[-rim_posts]) * per_two};
+    }
+  }
+  const int side = pager.cells() + 1;
+  to = block_vertices_.data();
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column, ++to) {
+      to->one = to->other = to->post;
+      if (last_level(column, row) == kLevels - 1) continue;
+      const Ends ends = ends_of(column, row);
+      const int away = ends.rows * side + ends.columns;
+      to->one = to[away].post;
+      to->other = to[-away].post;
     }
   }
   const std::size_t size = block_vertices_.size() * sizeof(Vertex);
@@ -121,6 +137,9 @@ Drawer::Stats Drawer::draw(const render::Camera& camera, const glm::dvec3& eye, 
   program_.set(sky_, look_.sky);
   program_.set(per_sight_, look_.sight_m > 0 ? static_cast<float>(1.0 / look_.sight_m) : 0.0f);
   program_.set(relief_, glm::vec2(ground.base_m, ground.relief_m));
+  const MorphBands& bands = terrain_.morph_bands();
+  program_.set(bands_, glm::vec4(bands.begin[0], bands.end[0], bands.begin[1], bands.end[1]) *
+                           static_cast<float>(pager.cells()));
   program_.use();
   array_.bind();
   commands_.bind(GL_DRAW_INDIRECT_BUFFER);

@@ -57,8 +57,9 @@ class Drawer {
     int base_vertex;
     unsigned base_instance;
   };
+  /// Height and slopes of the post, and of the two that it goes between on the way to the next coarser level.
   struct Vertex {
-    float height_m, slope_x, slope_y;
+    glm::vec3 post{0.0f}, one{0.0f}, other{0.0f};
   };
 
   void upload(int slot);
@@ -69,7 +70,7 @@ class Drawer {
   gl::Program program_;
   gl::Buffer indices_, vertices_, corners_, commands_;
   gl::VertexArray array_;
-  GLint clip_, eye_post_, eye_within_, eye_height_, spacing_, sun_, sky_, per_sight_, relief_;
+  GLint clip_, eye_post_, eye_within_, eye_height_, spacing_, sun_, sky_, per_sight_, relief_, bands_;
   std::vector<std::optional<BlockKey>> uploaded_;  ///< by slot
   std::vector<Vertex> block_vertices_;
   std::vector<Command> command_list_;

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <deque>
 #include <glm/geometric.hpp>
-#include <numbers>
+
+#include "globe/base/angles.h"
 
 namespace globe::flat::fractal {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kReach = 2.0;          // how far ahead and behind ground counts, clearances
 constexpr std::size_t kMost = 200'000;  // places looked at
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numeric>
 
 namespace globe::flat::fractal {
@@ -17,6 +18,7 @@ const TerrainSettings& checked(const TerrainSettings& settings) {
 Terrain::Terrain(const TerrainSettings& settings)
     : settings_(checked(settings)),
       pager_(settings.ground, settings.pager),
+      bands_(fractal::morph_bands(settings.rings, settings.pager.slack, settings.morph && settings.lod)),
       tree_(settings.pager.log2_blocks),
       levels_(static_cast<std::size_t>(pager_.blocks()) * static_cast<std::size_t>(pager_.blocks())),
       edges_(levels_.size()) {
@@ -71,6 +73,21 @@ const std::vector<BlockDraw>& Terrain::draws(const glm::dmat4& clip_from_relativ
   for (const int block : visible_)
     draws_.push_back(block_draw(block % pager_.blocks(), block / pager_.blocks()));
   return draws_;
+}
+
+float Terrain::drawn_height_m(const BlockDraw& block, int column, int row, const glm::dvec2& eye) const {
+  const float* const at =
+      pager_.heights(block.slot).data() + (row + 1) * pager_.posts_with_rim() + column + 1;
+  const int level = last_level(column, row);
+  if (level == kLevels - 1) return *at;
+  const BlockKey first = pager_.first();
+  const glm::dvec2 post(static_cast<double>((first.x + block.column) * pager_.cells() + column),
+                        static_cast<double>((first.y + block.row) * pager_.cells() + row));
+  const Ends ends = ends_of(column, row);
+  const int other = ends.rows * pager_.posts_with_rim() + ends.columns;
+  const float share = morph_share(
+      bands_, level, static_cast<float>(glm::distance(post, eye)) / static_cast<float>(pager_.cells()));
+  return *at + share * (0.5f * (at[other] + at[-other]) - *at);
 }
 
 double Terrain::height_m(const glm::dvec2& posts) const {

@@ -7,6 +7,7 @@
 
 #include "flat/fractal/culling.h"
 #include "flat/fractal/mesh.h"
+#include "flat/fractal/morph.h"
 #include "flat/fractal/pager.h"
 
 namespace globe::flat::fractal {
@@ -16,6 +17,7 @@ struct TerrainSettings {
   PagerSettings pager;
   Rings rings;
   bool lod = true;      ///< off: every block at level 0
+  bool morph = true;    ///< off: levels change at once
   bool culling = true;  ///< off: every block is drawn
 };
 
@@ -28,7 +30,8 @@ struct BlockDraw {
 };
 
 /// Endless ground around a viewer: what to draw of it, without graphics. After Christopoulos 1999, chapter 4:
-/// paging, three levels by rings, which change only when blocks are paged, and the quad tree of boxes.
+/// paging, three levels by rings, which change only when blocks are paged and are morphed into each other
+/// until then, and the quad tree of boxes.
 ///
 /// The ground lies flat: x east, y north, z up.
 class Terrain {
@@ -42,6 +45,13 @@ class Terrain {
 
   /// Pages for a viewer at a place, in posts. True when blocks changed.
   bool move_to(const glm::dvec2& posts);
+
+  /// Where levels go over into each other.
+  const MorphBands& morph_bands() const { return bands_; }
+  /// Height at which a post of a block is drawn, metres.
+  /// @param column, row  of the block, 0 to cells()
+  /// @param eye          posts east and north
+  float drawn_height_m(const BlockDraw& block, int column, int row, const glm::dvec2& eye) const;
 
   /// Level of a block of the square.
   int level(int column, int row) const {
@@ -64,6 +74,7 @@ class Terrain {
  private:
   TerrainSettings settings_;
   Pager pager_;
+  MorphBands bands_;
   HeightTree tree_;
   std::vector<std::uint8_t> levels_;
   std::vector<std::uint8_t> edges_;

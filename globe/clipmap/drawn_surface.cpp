@@ -14,10 +14,6 @@ namespace {
 
 constexpr double kBoundsRounding = 1e-6;  ///< bounds are in fp32, and so is what they were made from
 
-dvec3 exact_mix(const dvec3& a, const dvec3& b, double t) {
-  return t >= 1.0 ? b : t <= 0.0 ? a : a + (b - a) * t;
-}
-
 NodeRect nodes_of(const LatticeTrixel& trixel, int m) {
   return {trixel.i * m, (trixel.i + 1) * m, trixel.j * m, (trixel.j + 1) * m};
 }
@@ -42,7 +38,6 @@ DrawnSurface::DrawnSurface(const Settings& settings, std::shared_ptr<const plane
     : settings_(settings),
       surface_(std::move(surface)),
       mesh_(make_patch_mesh(settings.m)),
-      band_(morph_band(settings)),
       nadir_(state->target.u),
       finest_(finest),
       fade_(fade) {
@@ -64,42 +59,23 @@ void DrawnSurface::add_ring(const ClipmapState& state, int level) {
   }
 }
 
-std::vector<DrawnSurface::Vertex> DrawnSurface::evaluate(const DrawnPatch& patch) const {
+std::vector<MorphedVertex> DrawnSurface::evaluate(const DrawnPatch& patch) const {
   const LatticeTrixel& trixel = patch.patch.trixel;
-  // Around a patch: the two ends of an edge that one of its vertices halves lie in it as well.
   const PositionGrid grid =
       exact_positions(*surface_, patch.level, trixel.d, nodes_of(trixel, settings_.m), dvec3(0.0));
-  const std::vector<LatticePoint> seen = images(nadir(nadir_, patch.level), trixel.d);
-  std::vector<Vertex> result;
-  result.reserve(mesh_.vertices.size());
-  for (const auto& [a, b] : mesh_.vertices) {
-    const ivec2 node = patch_node(trixel, settings_.m, a, b);
-    const dvec3 own(grid.at(node.x, node.y));
-    float alpha = 0.0f;
-    if (patch.level > settings_.base_level) {
-      alpha = morph_factor(band_, hex_distance(seen, {node.x * kSubcell, node.y * kSubcell}));
-      if (patch.level == finest_) alpha = std::max(alpha, fade_);
-    }
-    if (((node.x | node.y) & 1) ==
-        0) {  // the coarser level's too: it stays, and so does the rim made of such
-      result.push_back({own, alpha});
-      continue;
-    }
-    const auto ends = planet::halved_edge(node.x, node.y);
-    const dvec3 coarse = (dvec3(grid.at(ends[0].x, ends[0].y)) + dvec3(grid.at(ends[1].x, ends[1].y))) * 0.5;
-    result.push_back({exact_mix(own, coarse, static_cast<double>(alpha)), alpha});
-  }
-  return result;
+  return morphed_vertices(settings_, mesh_,
+                          {patch.patch, patch.level, nadir_, patch.level == finest_ ? fade_ : 0.0f},
+                          [&](const ivec2& node) { return dvec3(grid.at(node.x, node.y)); });
 }
 
-const std::vector<DrawnSurface::Vertex>& DrawnSurface::vertices(const DrawnPatch& patch) const {
+const std::vector<MorphedVertex>& DrawnSurface::vertices(const DrawnPatch& patch) const {
   std::call_once(patch.evaluated, [&] { patch.vertices = evaluate(patch); });
   return patch.vertices;
 }
 
 std::optional<DrawnPoint> DrawnSurface::hit_in(const DrawnPatch& patch, const Ray& ray,
                                                double nearest_m) const {
-  const std::vector<Vertex>& vertex = vertices(patch);
+  const std::vector<MorphedVertex>& vertex = vertices(patch);
   const std::vector<std::uint16_t>& index = mesh_.indices[static_cast<std::size_t>(patch.patch.rim)];
   std::optional<DrawnPoint> first;
   for (std::size_t k = 0; k < index.size(); k += 3) {
@@ -135,17 +111,22 @@ std::optional<DrawnPoint> DrawnSurface::first_hit(const Ray& ray, double nearest
   return first;
 }
 
-DrawnSurface complete_surface(const Settings& settings, std::shared_ptr<const planet::Surface> surface,
-                              const dvec3& position, int max_level) {
+CompleteState complete_state(const Settings& settings, const planet::Surface& surface, const dvec3& position,
+                             double away_m, int max_level) {
   Settings plain = settings;
   plain.shading_levels = 0;
+  const FinestLevel finest = finest_level(settings, surface.root_edge(), away_m, max_level);
+  const geo::Geodetic place = geo::geodetic_from_ecef(surface.ellipsoid(), position);
+  const Target target{geo::normal_from_degrees(place.lat_deg, place.lon_deg), finest.level, {}};
+  return {plain, advance(plain, surface, target, nullptr, Stride::kWhole).state, finest};
+}
+
+DrawnSurface complete_surface(const Settings& settings, std::shared_ptr<const planet::Surface> surface,
+                              const dvec3& position, int max_level) {
   const double above = std::max(height_above_ground(settings, *surface, position, max_level, true),
                                 least_above_ground(surface->ellipsoid()));
-  const FinestLevel finest = finest_level(settings, surface->root_edge(), above, max_level);
-  const geo::Geodetic place = geo::geodetic_from_ecef(surface->ellipsoid(), position);
-  const Target target{geo::normal_from_degrees(place.lat_deg, place.lon_deg), finest.level, {}};
-  const auto state = advance(plain, *surface, target, nullptr, Stride::kWhole).state;
-  return {plain, std::move(surface), state, finest.level, finest.fade};
+  const CompleteState complete = complete_state(settings, *surface, position, above, max_level);
+  return {complete.settings, std::move(surface), complete.state, complete.shown.level, complete.shown.fade};
 }
 
 }  // namespace globe::clipmap

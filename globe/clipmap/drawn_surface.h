@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "globe/clipmap/morph.h"
+#include "globe/clipmap/morphed_patch.h"
 #include "globe/clipmap/patch.h"
 #include "globe/clipmap/ray.h"
 #include "globe/clipmap/stream.h"
@@ -42,10 +43,6 @@ class DrawnSurface {
   std::optional<DrawnPoint> first_hit(const Ray& ray, double nearest_m = 0.0) const;
 
  private:
-  struct Vertex {
-    dvec3 position;
-    float alpha;
-  };
   /// A patch of a ring, and all that can be drawn of it within a sphere.
   struct DrawnPatch {
     DrawnPatch(const Patch& of, int at_level, const dvec3& at, double reach)
@@ -56,23 +53,33 @@ class DrawnSurface {
     dvec3 centre;
     double radius;
     mutable std::once_flag evaluated;
-    mutable std::vector<Vertex> vertices;  ///< in the order of PatchMesh::vertices
+    mutable std::vector<MorphedVertex> vertices;  ///< in the order of PatchMesh::vertices
   };
 
   void add_ring(const ClipmapState& state, int level);
-  const std::vector<Vertex>& vertices(const DrawnPatch& patch) const;
-  std::vector<Vertex> evaluate(const DrawnPatch& patch) const;
+  const std::vector<MorphedVertex>& vertices(const DrawnPatch& patch) const;
+  std::vector<MorphedVertex> evaluate(const DrawnPatch& patch) const;
   std::optional<DrawnPoint> hit_in(const DrawnPatch& patch, const Ray& ray, double nearest_m) const;
 
   Settings settings_;
   std::shared_ptr<const planet::Surface> surface_;
   PatchMesh mesh_;
-  MorphBand band_;
   dvec3 nadir_;  ///< the camera's normal
   int finest_;
   float fade_;
   std::deque<DrawnPatch> patches_;
 };
+
+/// A clipmap that is complete for a camera.
+struct CompleteState {
+  Settings settings;  ///< no light, no colours
+  std::shared_ptr<const ClipmapState> state;
+  FinestLevel shown;
+};
+/// @param position  of the camera, ECEF
+/// @param away_m    how near it is to ground that is drawn (nearest_drawn)
+CompleteState complete_state(const Settings& settings, const planet::Surface& surface, const dvec3& position,
+                             double away_m, int max_level);
 
 /// The surface that a complete picture shows from a camera at `position`: what GlobeRenderer::draw draws when
 /// it waits. Colours and light are left out.

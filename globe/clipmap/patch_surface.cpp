@@ -7,19 +7,15 @@
 #include "globe/planet/directions.h"
 
 namespace globe::clipmap {
-namespace shader {
 namespace {
 
+namespace shader {
 using namespace glm;
 
 #define precise
 #include "shaders/lib/patch_surface.glsl"
 #undef precise
-
-}  // namespace
 }  // namespace shader
-
-namespace {
 
 std::size_t index_of(const NodeRect& rect, const ivec2& p) {
   return static_cast<std::size_t>(p.y - rect.j0) * static_cast<std::size_t>(rect.width()) +

@@ -159,8 +159,7 @@ void shade_tile_part(const Surface& surface, const SurfaceTile& tile, const Node
       ground.sin_latitude = metrics.sin_latitude(i, j);
       const bool water = sea && ground.height_m < 0.0;
       glm::vec3 color = planet::albedo(ground);
-      const bool open_water =
-          water && (bare ? planet::pack_ice(ground) < 0.5f : color.r < 0.3f);  // not pack ice
+      const bool open_water = planet::is_open_water(ground, color);
       if (coloring != nullptr) color = (*coloring)(ground, color);
       const std::size_t k = static_cast<std::size_t>(j - held.j0) * static_cast<std::size_t>(held.width()) +
                             static_cast<std::size_t>(i - held.i0);

@@ -6,7 +6,7 @@
 namespace globe::clipmap {
 namespace {
 
-constexpr std::array<std::string_view, 2> kNames{"plain", "hexagon"};
+constexpr std::array<std::string_view, 2> kWindowsNames{"plain", "hexagon"};
 
 int floor_divide(int x, int n) { return x >= 0 ? x / n : -((n - 1 - x) / n); }
 int modulo(int x, int n) { return x - floor_divide(x, n) * n; }
@@ -32,13 +32,13 @@ bool clash(const Torus& torus, const NodeRect& a, const NodeRect& b) {
 }  // namespace
 
 std::optional<Windows> windows_by_name(std::string_view name) {
-  for (std::size_t k = 0; k < kNames.size(); ++k) {
-    if (kNames[k] == name) return static_cast<Windows>(k);
+  for (std::size_t k = 0; k < kWindowsNames.size(); ++k) {
+    if (kWindowsNames[k] == name) return static_cast<Windows>(k);
   }
   return std::nullopt;
 }
 
-std::string_view name_of(Windows windows) { return kNames[static_cast<std::size_t>(windows)]; }
+std::string_view name_of(Windows windows) { return kWindowsNames[static_cast<std::size_t>(windows)]; }
 
 glm::ivec2 Torus::texel(int i, int j) const {
   return {modulo(i - shift * floor_divide(j, height), width), modulo(j, height)};

@@ -8,6 +8,7 @@
 #include <glm/vec4.hpp>
 #include <numbers>
 
+#include "globe/base/angles.h"
 #include "globe/geo/ellipsoid.h"
 #include "globe/planet/noise.h"
 
@@ -18,7 +19,6 @@ using glm::dvec3;
 
 constexpr double kGradientRange = 128.0;  ///< as in shaders/effects/clouds.glsl, as the next
 constexpr double kDetailRange = 24.0;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::size_t index_of(int side, int face, int column, int row) {
   return (static_cast<std::size_t>(face) * static_cast<std::size_t>(side) + static_cast<std::size_t>(row)) *

@@ -18,7 +18,7 @@
 #include "globe/gl/texture.h"
 #include "globe/gl/vertex_array.h"
 #include "globe/render/air.h"
-#include "globe/render/effect_shaders.h"
+#include "globe/render/effect_program.h"
 #include "globe/render/view_block.h"
 
 namespace globe::effects {
@@ -161,16 +161,15 @@ class Clouds final : public render::Effect {
     return {false, "out of view"};
   }
 
+  void warm_up() override { program_.for_active(0, render::Serving::kAny); }
+
   void compile(const render::EffectHost& host) override {
     array_ = gl::VertexArray::create();
     gl::ProgramSources sources;
     sources.files = {"effects/clouds_layer.vert", "effects/clouds_layer.frag"};
     sources.defines = {"RINGS " + std::to_string(kRings), "SECTORS " + std::to_string(kSectors),
                        "HAZE_STEPS " + std::to_string(host.air.haze)};
-    const std::vector<std::string>& defines = host.shaders.defines();
-    sources.defines.insert(sources.defines.end(), defines.begin(), defines.end());
-    sources.reader = host.shaders.reader();
-    program_ = gl::Program(sources);
+    program_ = {std::move(sources), host.shaders};
     std::vector<std::uint16_t> indices;
     for (int ring = 0; ring < kRings; ++ring) {
       for (int sector = 0; sector < kSectors; ++sector) {
@@ -255,12 +254,12 @@ class Clouds final : public render::Effect {
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     array_.bind();
-    program_.use();
-    program_.set(0, glm::vec3(ahead));
-    program_.set(1, glm::vec4(glm::dvec4(last, growth, half_turn, 0.0)));
-    program_.set(render::EffectShaders::kActiveEffects, view.active);
+    const gl::Program& program = program_.for_active(view.active, view.serving);
+    program.use();
+    program.set(0, glm::vec3(ahead));
+    program.set(1, glm::vec4(glm::dvec4(last, growth, half_turn, 0.0)));
     const auto draw_faces = [&](bool seen_from_above) {
-      program_.set(2, seen_from_above ? 1 : 0);
+      program.set(2, seen_from_above ? 1 : 0);
       glDrawElements(GL_TRIANGLES, kRings * kSectors * 6, GL_UNSIGNED_SHORT, nullptr);
     };
     if (above) {
@@ -355,7 +354,7 @@ class Clouds final : public render::Effect {
   UniformBlock<CloudsBlock> block_;
   gl::VertexArray array_;
   gl::Buffer indices_;
-  gl::Program program_;
+  render::EffectProgram program_;
   std::vector<std::vector<std::uint8_t>> levels_;  ///< of the cover from kMistLevel on
   gl::Texture texture_, detail_;
 };

@@ -9,7 +9,7 @@
 namespace globe::effects {
 namespace {
 
-constexpr double kContrast =
+constexpr double kFogDepth =
     3.912;  ///< optical depth at which a dark thing has 2 % of its contrast left (Koschmieder)
 constexpr double kLeastDepth = 1.0 / 512;  ///< that shows in eight bits
 
@@ -67,7 +67,7 @@ class Fog final : public render::Effect {
   std::size_t gpu_bytes() const override { return block_.bytes(); }
 
  private:
-  double extinction() const { return kContrast / parameters_.visibility_m; }
+  double extinction() const { return kFogDepth / parameters_.visibility_m; }
 
   FogParameters parameters_;
   double radius_m_;

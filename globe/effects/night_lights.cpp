@@ -5,6 +5,7 @@
 #include <glm/vec4.hpp>
 #include <optional>
 
+#include "globe/base/angles.h"
 #include "globe/effects/entry.h"
 #include "globe/effects/lat_long_image.h"
 #include "globe/effects/planet_texture.h"
@@ -15,7 +16,6 @@
 namespace globe::effects {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kLit = -1.0 * kDegree,
                  kFull = -9.0 * kDegree;  ///< heights of the sun between which they come on
 

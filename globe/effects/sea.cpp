@@ -12,6 +12,7 @@
 #include "globe/effects/waves.h"
 #include "globe/gl/buffer.h"
 #include "globe/gl/program.h"
+#include "globe/render/effect_program.h"
 #include "globe/render/effect_shaders.h"
 #include "globe/render/patch_drawer.h"
 
@@ -153,6 +154,9 @@ class SeaEffect final : public render::Effect {
     for (const render::Kind kind : {render::Kind::kPlain, render::Kind::kMorphing, render::Kind::kRim})
       programs_[static_cast<std::size_t>(kind)] = program(kind, host);
   }
+  void warm_up() override {
+    for (render::EffectProgram& program : programs_) program.for_active(0, render::Serving::kAny);
+  }
 
   void prepare(const render::EffectView& view, const render::Bindings& bindings) override {
     const glm::dvec3 foot = sea_.foot(view.camera.position);
@@ -172,13 +176,11 @@ class SeaEffect final : public render::Effect {
   void draw(const render::EffectView& view) override {
     // Its far sides are seen from below only.
     if (!is_under_water(view)) glEnable(GL_CULL_FACE);
-    view.host.patches.draw(view.patches, view.host.textures,
-                           [&](const render::Batch& batch) -> const gl::Program* {
-                             if (!batch.water) return nullptr;
-                             const gl::Program& chosen = programs_[static_cast<std::size_t>(batch.look.kind)];
-                             chosen.set(render::EffectShaders::kActiveEffects, view.active);
-                             return &chosen;
-                           });
+    view.host.patches.draw(
+        view.patches, view.host.textures, [&](const render::Batch& batch) -> const gl::Program* {
+          if (!batch.water) return nullptr;
+          return &programs_[static_cast<std::size_t>(batch.look.kind)].for_active(view.active, view.serving);
+        });
     glDisable(GL_CULL_FACE);
   }
 
@@ -189,27 +191,24 @@ class SeaEffect final : public render::Effect {
     return view.water_m && view.height_m < *view.water_m;
   }
 
-  static gl::Program program(render::Kind kind, const render::EffectHost& host) {
+  static render::EffectProgram program(render::Kind kind, const render::EffectHost& host) {
     gl::ProgramSources sources;
     sources.files = {"clipmap.vert", "effects/sea.frag"};
-    sources.reader = host.shaders.reader();
     sources.defines = host.textures.defines();
     sources.defines.push_back("MAX_SLOTS " + std::to_string(render::kMaxSlots));
     sources.defines.push_back("HAZE_STEPS " + std::to_string(host.air.haze));
-    sources.defines.insert(sources.defines.end(), host.shaders.defines().begin(),
-                           host.shaders.defines().end());
     sources.defines.insert(sources.defines.end(), {"SEA", "SHADE_FINE"});
     if (kind != render::Kind::kPlain)
       sources.defines.insert(sources.defines.end(), {"MORPH", "SHADE_COARSE"});
     if (kind == render::Kind::kRim) sources.defines.emplace_back("RIM");
-    return gl::Program(sources);
+    return {std::move(sources), host.shaders};
   }
 
   SeaParameters parameters_;
   Sea sea_;
   SeaBlock data_;
   UniformBlock<SeaBlock> block_;
-  std::array<gl::Program, 3> programs_;  ///< by render::Kind
+  std::array<render::EffectProgram, 3> programs_;  ///< by render::Kind
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace globe::effects {
 namespace {
 
-constexpr double kContrast = 3.912;  ///< optical depth at which a dark thing has 2 % of its contrast left
+constexpr double kMurkDepth = 3.912;  ///< optical depth at which a dark thing has 2 % of its contrast left
 /// What water itself takes more of the colours than of the one that it takes least, per metre: at 620, 550
 /// and 450 nm (Smith and Baker 1981).
 constexpr glm::vec3 kTaken{0.29f, 0.045f, 0.0f};
@@ -57,7 +57,7 @@ class Underwater final : public render::Effect {
   }
 
   void prepare(const render::EffectView& view, const render::Bindings& bindings) override {
-    const auto murk = static_cast<float>(kContrast / parameters_.visibility_m);
+    const auto murk = static_cast<float>(kMurkDepth / parameters_.visibility_m);
     const double depth = std::max(view.water_m.value_or(0.0) - view.height_m, 0.0);
     const UnderwaterBlock block{glm::vec4(parameters_.color, static_cast<float>(depth)),
                                 glm::vec4(kTaken + murk, 0.0f),

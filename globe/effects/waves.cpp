@@ -11,7 +11,7 @@ namespace globe::effects {
 namespace {
 
 constexpr double kGravity = 9.81;  ///< of the Earth, which alone has a sea
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int kBands = 36;
 constexpr double kShortest = 0.1;  ///< metres
 constexpr double kLongest = 0.72;  ///< of the peak's frequency: what is longer has 1 % of the energy
@@ -22,11 +22,11 @@ double spread(int k, double step) { return std::fmod(0.5 + k * step, 1.0); }
 
 }  // namespace
 
-double angular_frequency(double wavelength_m) { return std::sqrt(kGravity * 2.0 * kPi / wavelength_m); }
+double angular_frequency(double wavelength_m) { return std::sqrt(kGravity * 2.0 * pi / wavelength_m); }
 
 double deep_water_length(double per_second) {
-  const double omega = 2.0 * kPi * per_second;
-  return 2.0 * kPi * kGravity / (omega * omega);
+  const double omega = 2.0 * pi * per_second;
+  return 2.0 * pi * kGravity / (omega * omega);
 }
 
 double slope_variance(double wind_speed) { return 0.003 + 0.00512 * wind_speed; }
@@ -34,7 +34,7 @@ double slope_variance(double wind_speed) { return 0.003 + 0.00512 * wind_speed; 
 double slope_variance(const std::vector<Wave>& waves) {
   double sum = 0.0;
   for (const Wave& wave : waves) {
-    const double steepness = wave.amplitude_m * 2.0 * kPi / wave.wavelength_m;
+    const double steepness = wave.amplitude_m * 2.0 * pi / wave.wavelength_m;
     sum += 0.5 * steepness * steepness;
   }
   return sum;
@@ -56,13 +56,13 @@ std::vector<Wave> wind_waves(double wind_speed, double from_deg) {
         8.1e-3 * kGravity * kGravity * std::pow(omega, -5.0) * std::exp(-1.25 * std::pow(peak / omega, 4.0));
     // The angle at which the integral of cos^2 has come so far.
     const double share = 2.0 * spread(k, 0.6180339887) - 1.0;
-    double angle = share * 0.5 * kPi;
+    double angle = share * 0.5 * pi;
     for (int n = 0; n < 8; ++n)
       angle -=
-          (2.0 * angle + std::sin(2.0 * angle) - share * kPi) / (2.0 + 2.0 * std::cos(2.0 * angle) + 1e-9);
+          (2.0 * angle + std::sin(2.0 * angle) - share * pi) / (2.0 + 2.0 * std::cos(2.0 * angle) + 1e-9);
     const double k_wave = omega * omega / kGravity;
-    waves.push_back({std::sqrt(2.0 * density * width), 2.0 * kPi / k_wave,
-                     2.0 * kPi * spread(k, 0.5698402910), from_deg + angle * 180.0 / kPi});
+    waves.push_back({std::sqrt(2.0 * density * width), 2.0 * pi / k_wave, 2.0 * pi * spread(k, 0.5698402910),
+                     from_deg + angle * 180.0 / pi});
   }
   return waves;
 }
@@ -92,14 +92,14 @@ Sea::Local Sea::at(std::size_t wave, const glm::dvec3& foot, double time_s) cons
   const double cosine = glm::dot(source, foot);
   const double sine = glm::length(glm::cross(source, foot));
   // From the reference place on, a quarter of the globe from the source.
-  const double angle = std::atan2(sine, cosine) - 0.5 * kPi;
-  const double number = 2.0 * kPi / waves_[wave].wavelength_m;
+  const double angle = std::atan2(sine, cosine) - 0.5 * pi;
+  const double number = 2.0 * pi / waves_[wave].wavelength_m;
   const double phase = number * radius_m_ * angle - angular_frequency(waves_[wave].wavelength_m) * time_s;
   glm::dvec3 along = foot * cosine - source;
   if (sine < 1e-9)
     along = glm::cross(foot, std::abs(foot.z) < 0.7 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0));
   return {glm::normalize(along),
-          std::remainder(std::remainder(phase, 2.0 * kPi) + waves_[wave].phase, 2.0 * kPi),
+          std::remainder(std::remainder(phase, 2.0 * pi) + waves_[wave].phase, 2.0 * pi),
           std::clamp(cosine / std::max(sine, 1e-9), -kSteepestCotangent, kSteepestCotangent)};
 }
 

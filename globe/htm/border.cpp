@@ -44,10 +44,10 @@ double Border::stray(const Piece& piece) const {
 /// Halves the piece until it is nearly straight, so that boxes around its parts are slim.
 void Border::add_pieces(const Piece& piece, std::vector<Box>& boxes) {
   constexpr double kStraight = 1.0 / 32.0;
-  constexpr double kShort = 1e-12;
+  constexpr double kSlight = 1e-12;
   const double thickness = stray(piece);
   const double chord = glm::distance(piece.p, piece.q);
-  if (thickness <= std::max(kStraight * chord, kShort + margin_)) {
+  if (thickness <= std::max(kStraight * chord, kSlight + margin_)) {
     const std::array<dvec3, 2> ends{piece.p, piece.q};
     boxes.push_back(box_around(ends, thickness));
     pieces_.push_back(piece);

@@ -149,6 +149,11 @@ float pack_ice(const Ground& g) {
   return step_up(0.955f, 0.975f, static_cast<float>(std::abs(g.sin_latitude)) + 0.012f * g.mottle);
 }
 
+bool is_open_water(const Ground& ground, const glm::vec3& albedo) {
+  if (!ground.has_sea || ground.height_m >= 0.0) return false;
+  return ground.bare_floor ? pack_ice(ground) < 0.5f : albedo.r < 0.3f;
+}
+
 vec3 albedo(const Ground& ground) {
   if (ground.bare_floor && ground.height_m < 0.0) {
     const vec3 ice = ground.has_color ? ground.color : kSnow * 0.85f;

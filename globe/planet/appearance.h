@@ -36,6 +36,10 @@ using Coloring = std::function<glm::vec3(const Ground& ground, const glm::vec3& 
 /// Share of pack ice over ground below the sea, [0, 1].
 float pack_ice(const Ground& ground);
 
+/// Whether a sea lies open over ground, not under pack ice.
+/// @param albedo  of that ground
+bool is_open_water(const Ground& ground, const glm::vec3& albedo);
+
 /// Slope of the drawn ground (the sea's surface where it lies above the ground) from a node's neighbours.
 struct GroundSlope {
   dvec3 gradient{0.0};  ///< tangent vector, rise over run

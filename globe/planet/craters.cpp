@@ -7,9 +7,9 @@
 namespace globe::planet {
 namespace {
 
-constexpr float kReach = 1.9f;  ///< ejecta end here, in crater radii
+constexpr float kEjectaReach = 1.9f;  ///< ejecta end here, in crater radii
 constexpr float kLargest =
-    0.5f;  ///< crater radius in cells: kReach times it stays inside the neighbouring cells
+    0.5f;  ///< crater radius in cells: kEjectaReach times it stays inside the neighbouring cells
 constexpr float kSmallest = 0.15f;
 constexpr float kShell = 0.5f;  ///< centres as far off the sphere, in cells, have faded out
 constexpr float kDepth = 0.4f;  ///< in radii
@@ -21,10 +21,10 @@ struct Profile {
 };
 
 GLOBE_INLINE Profile profile(float x) {
-  const float out = kReach - x;
+  const float out = kEjectaReach - x;
   const float bowl = (kDepth + kRim) * x * x - kDepth;
   const float bowl_slope = 2.0f * (kDepth + kRim) * x;
-  const float scale = kRim / ((kReach - 1.0f) * (kReach - 1.0f));
+  const float scale = kRim / ((kEjectaReach - 1.0f) * (kEjectaReach - 1.0f));
   const float ejecta = scale * out * out;
   const float ejecta_slope = -2.0f * scale * out;
   // The lower of the two, with the corner at the rim rounded.
@@ -107,7 +107,7 @@ GLOBE_INLINE void stamp(const OctaveLanes& o, std::size_t k, const Step& step, s
   const float off = away.off * (1.0f / (kShell * kParts));
   const float shell = greater(0.0f, 1.0f - off * off);
   const float age = 0.25f + 0.75f * unit_from_hash(hash * 0x9e3779b9u);
-  const float fade = distance < kReach * radius ? shell * shell * age : 0.0f;
+  const float fade = distance < kEjectaReach * radius ? shell * shell * age : 0.0f;
   const Profile at = profile(distance / radius);
   r.height_m[k] += fade * radius * wave_m * at.height;
   const float pull = fade * at.slope / greater(distance, 1e-12f);
@@ -145,7 +145,7 @@ GLOBE_FOR_EVERY_VECTOR_WIDTH void stamp_octave(std::uint32_t seed, const OctaveL
       hash[k] = crater_hash(seed, o, k, step);
       const Seen away = crater_away(o, k, step, hash[k]);
       const float square = away.x * away.x + away.y * away.y + away.z * away.z;
-      const float reach = kSlack * kReach * kParts * radius_of(hash[k]);
+      const float reach = kSlack * kEjectaReach * kParts * radius_of(hash[k]);
       const float off2 = away.off * away.off;
       reached |=
           (off2 < kShell * kShell * kParts * kParts ? 1u : 0u) & (square - off2 < reach * reach ? 1u : 0u);

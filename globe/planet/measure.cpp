@@ -18,9 +18,6 @@ namespace {
 constexpr double kFullRoughness = 0.035;  ///< slope between data nodes where roughness is 1
 constexpr double kRoomForRelief = 900.0;  ///< metres above the sea that relief needs to unfold in full
 
-constexpr std::array<ivec2, 6> kSteps{ivec2{1, 0},  ivec2{0, 1},  ivec2{-1, 1},
-                                      ivec2{-1, 0}, ivec2{0, -1}, ivec2{1, -1}};
-
 /// To a whole number, for |x| < 2^51: sums of such do not depend on their order.
 double whole(double x) {
   constexpr double kNoFraction = 0x1.8p52;
@@ -113,7 +110,7 @@ class CornerGround {
   /// The six neighbours of a node, four at an octahedron corner.
   static Neighbours neighbours(const Node& node) {
     Neighbours found;
-    for (const ivec2 step : kSteps) {
+    for (const ivec2 step : kLatticeSteps) {
       const Node other = fold({node.d, node.level, node.i + step.x, node.j + step.y});
       const auto end = found.node.begin() + static_cast<std::ptrdiff_t>(found.count);
       const auto same = [&](const Node& known) { return octahedral_key(known) == octahedral_key(other); };
@@ -197,7 +194,7 @@ class TileGround {
   float roughness(int i, int j) const {
     const double h = height_.at(i, j);
     double sum = 0.0;
-    for (const ivec2 step : kSteps)
+    for (const ivec2 step : kLatticeSteps)
       sum += squared_rise(h, height_.at(i + step.x, j + step.y), scale_.data_edge_m);
     return roughness_from(sum, 6.0, h, scale_.craters);
   }
@@ -206,7 +203,7 @@ class TileGround {
     const dvec3& u = directions_.at(i, j);
     const double h = base_height_.at(i, j);
     dvec3 sum(0.0);
-    for (const ivec2 step : kSteps) {
+    for (const ivec2 step : kLatticeSteps) {
       sum += pull(u, h, directions_.at(i + step.x, j + step.y), base_height_.at(i + step.x, j + step.y),
                   scale_.radius_m);
     }

@@ -11,6 +11,8 @@ namespace globe::planet {
 inline constexpr int kTileCells = 64;  ///< cells a side of a tile, at levels that have as many
 inline constexpr int kTileGuard = 4;   ///< nodes a tile holds beyond its own on every side
 
+inline int guard_of(bool own_nodes_only) { return own_nodes_only ? 0 : kTileGuard; }
+
 /// A square of the diamond grid: tile (ti, tj) of diamond d at a level.
 struct TileId {
   int d = 0;

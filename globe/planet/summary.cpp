@@ -275,16 +275,16 @@ class Summarizer {
 
   /// Looks for better nodes inside, best block first. `sign` is 1 for the highest, -1 for the lowest.
   void search_inside(double sign, Best& best) {
-    struct Candidate {
+    struct BoundedBlock {
       double bound;
       OrderKey key;
       LatticeTrixel trixel;
 
-      bool operator<(const Candidate& other) const {
+      bool operator<(const BoundedBlock& other) const {
         return bound < other.bound || (bound == other.bound && key > other.key);
       }
     };
-    std::priority_queue<Candidate> queue;
+    std::priority_queue<BoundedBlock> queue;
     const auto add = [&](const LatticeTrixel& t) {
       const double bound = sign * static_cast<double>(read("height_range", t)[sign > 0 ? 1 : 0]);
       const OrderKey key = first_key(t);

@@ -19,8 +19,6 @@ namespace {
 
 constexpr int kRootLevel = 6;  ///< 64 cells a side: the finest level that is one tile a diamond
 
-int guard_of(bool own_nodes_only) { return own_nodes_only ? 0 : kTileGuard; }
-
 PlanetInfo builtin_info(std::uint64_t seed) {
   PlanetInfo info;
   info.name = "procedural:" + std::to_string(seed);

@@ -21,8 +21,6 @@ double signed_unit(std::uint64_t hash) { return static_cast<double>(hash >> 11) 
 constexpr std::uint64_t kSecond = 0x9e3779b97f4a7c15ULL;  ///< a second number from a node's hash
 constexpr std::uint64_t kThird = 0xd1342543de82ef95ULL;
 
-int guard_of(bool own_nodes_only) { return own_nodes_only ? 0 : kTileGuard; }
-
 bool is_new(const Node& node) { return ((node.i | node.j) & 1) != 0 || node.level == 0; }
 
 }  // namespace

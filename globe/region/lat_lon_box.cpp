@@ -10,7 +10,6 @@
 namespace globe::region {
 namespace {
 
-constexpr double kTurn = 360.0;
 constexpr const char* kHowToWrite = "give W,S,E,N in degrees such as 5.9,45.8,10.5,47.8";
 
 /// From west eastward to east, 0 to 360 degrees.

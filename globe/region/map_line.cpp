@@ -2,17 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "globe/base/angles.h"
 #include "globe/geo/ellipsoid.h"
 
 namespace globe::region {
-namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
-
-}  // namespace
-
 double MapLine::latitude_deg(double t) const {
   // Exact at both ends.
   return t == 1.0 ? to_.lat_deg : from_.lat_deg + t * (to_.lat_deg - from_.lat_deg);
@@ -26,11 +20,11 @@ htm::dvec3 MapLine::at(double t) const {
 double MapLine::bend(double t0, double t1) const {
   // u = (cos φ e(λ), sin φ) with φ' and λ' constant:
   // u'' = φ'² (-u) + 2 φ'λ' (-sin φ e⊥) + λ'² (-cos φ e).
-  const double phi = std::abs(to_.lat_deg - from_.lat_deg) * kRadians;
-  const double lambda = std::abs(to_.lon_deg - from_.lon_deg) * kRadians;
+  const double phi = std::abs(to_.lat_deg - from_.lat_deg) * kDegree;
+  const double lambda = std::abs(to_.lon_deg - from_.lon_deg) * kDegree;
   const double lat0 = latitude_deg(t0), lat1 = latitude_deg(t1);
   const double nearest_equator = lat0 * lat1 <= 0.0 ? 0.0 : std::min(std::abs(lat0), std::abs(lat1));
-  const double cosine = std::cos(nearest_equator * kRadians);
+  const double cosine = std::cos(nearest_equator * kDegree);
   return (phi * (phi + 2.0 * lambda) + lambda * lambda * cosine) * (1.0 + 1e-9);
 }
 

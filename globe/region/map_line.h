@@ -11,6 +11,8 @@ struct MapPoint {
   friend bool operator==(const MapPoint&, const MapPoint&) = default;
 };
 
+inline constexpr double kTurn = 360.0;  ///< degrees
+
 /// A straight line in latitude and longitude: lat and lon are linear in t (RFC 7946, 3.1.1). A parallel and a
 /// meridian are special cases; at a pole it stands still.
 class MapLine final : public htm::Curve {

@@ -18,8 +18,7 @@ namespace {
 using htm::Box;
 using htm::dvec3;
 
-constexpr double kTurn = 360.0;
-constexpr const char* kHowToWrite = "give three corners or more in order along the border";
+constexpr const char* kHowToDraw = "give three corners or more in order along the border";
 
 dvec3 on_map(const MapPoint& p) { return {p.lon_deg, p.lat_deg, 1.0}; }
 
@@ -56,7 +55,7 @@ MapPolygon::MapPolygon(std::span<const Rings> polygons)
     ring_count_ += polygons[p].size();
     for (std::uint32_t r = 0; r < polygons[p].size(); ++r) add_ring(polygons[p][r], p, r);
   }
-  if (edges_.empty()) throw UsageError("polygon", "it has no corners", kHowToWrite);
+  if (edges_.empty()) throw UsageError("polygon", "it has no corners", kHowToDraw);
   std::vector<Box> boxes;
   boxes.reserve(edges_.size());
   west_deg_ = east_deg_ = edges_[0].a.lon_deg;
@@ -84,7 +83,7 @@ void MapPolygon::add_ring(const Ring& ring, std::uint32_t polygon, std::uint32_t
   }
   if (different.size() < 3) {
     throw UsageError("polygon", "a ring has only " + std::to_string(different.size()) + " different corners",
-                     kHowToWrite);
+                     kHowToDraw);
   }
 }
 

@@ -115,9 +115,11 @@ bool may_glint(const clipmap::PatchBounds& bounds, const glm::dvec3& centre, con
 
 DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::ClipmapState& state,
                         const ClipmapTextures& textures, const geo::Ellipsoid& ellipsoid,
-                        const Camera& camera, int finest, float fade, bool cull) {
+                        const Camera& camera, clipmap::FinestLevel shown, bool cull, const Room* room) {
+  const int finest = shown.level;
+  const float fade = shown.fade;
   DrawList list;
-  std::map<std::tuple<Look, int, int, bool>, Batch> batches;
+  std::map<std::tuple<Look, int, int, bool, RoomSide>, Batch> batches;
   const Levels levels{settings, state};
   const Bands bands(clipmap::morph_band(settings));
   const clipmap::Frustum frustum(camera.forward, camera.right, camera.up, camera.tan_x(), camera.tan_y());
@@ -189,15 +191,19 @@ DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::Clipma
         look = {level > settings.base_level ? Kind::kRim : Kind::kPlain, Shading::kGlint};
       const NodeRect& rect = data.vertices[d];
       const int half = patch.trixel.half;
-      Batch& batch = batches[{look, rim ? patch.rim : 0, rim ? patch.rim_corners : 0, data.bounds[p].water}];
+      const RoomSide side = room == nullptr
+                                ? RoomSide::kOutside
+                                : side_of(*room, centre, static_cast<double>(data.bounds[p].radius));
+      Batch& batch =
+          batches[{look, rim ? patch.rim : 0, rim ? patch.rim_corners : 0, data.bounds[p].water, side}];
       batch.instances.emplace_back((patch.trixel.i + half) * settings.m - rect.i0,
                                    (patch.trixel.j + half) * settings.m - rect.j0, half == 0 ? 1 : -1,
                                    slot_of[static_cast<std::size_t>(level - settings.base_level)][d]);
-      ++list.patches;
+      if (side != RoomSide::kInside) ++list.patches;
     }
   }
   for (auto& [name, batch] : batches) {
-    std::tie(batch.look, batch.rim, batch.rim_corners, batch.water) = name;
+    std::tie(batch.look, batch.rim, batch.rim_corners, batch.water, batch.room) = name;
     list.batches.push_back(std::move(batch));
   }
   return list;

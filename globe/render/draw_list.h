@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "globe/clipmap/culling.h"
+#include "globe/clipmap/morph.h"
 #include "globe/clipmap/stream.h"
 #include "globe/render/camera.h"
 #include "globe/render/clipmap_textures.h"
+#include "globe/render/room.h"
 
 namespace globe::render {
 
@@ -55,9 +57,10 @@ inline constexpr std::array kLooks{
 /// Patches of one look and rim variant: one instanced draw.
 struct Batch {
   Look look;
-  int rim = 0;                        ///< edges on the rim: which index list
-  int rim_corners = 0;                ///< corners that touch it
-  bool water = false;                 ///< a sea is to be drawn over some of each
+  int rim = 0;                         ///< edges on the rim: which index list
+  int rim_corners = 0;                 ///< corners that touch it
+  bool water = false;                  ///< a sea is to be drawn over some of each
+  RoomSide room = RoomSide::kOutside;  ///< where a region is drawn in their place
   std::vector<glm::ivec4> instances;  ///< corner 0 from the window's first node (i, j), ±1 for the half, slot
 };
 
@@ -75,11 +78,12 @@ struct DrawList {
 
 /// Chooses the patches in view, finest level first.
 ///
-/// @param finest  levels of the state above it are left out
-/// @param fade    morph factor the finest level has at least
+/// @param shown   levels of the state above it are left out
 /// @param cull    false: every patch of the mesh, for tests
+/// @param room    where something else draws the ground; null: nowhere
 DrawList make_draw_list(const clipmap::Settings& settings, const clipmap::ClipmapState& state,
                         const ClipmapTextures& textures, const geo::Ellipsoid& ellipsoid,
-                        const Camera& camera, int finest, float fade, bool cull);
+                        const Camera& camera, clipmap::FinestLevel shown, bool cull,
+                        const Room* room = nullptr);
 
 }  // namespace globe::render

@@ -30,6 +30,13 @@ struct Instant {
   glm::dmat3 ecef_from_celestial{1};  ///< from the celestial frame (ICRS axes) to ECEF
 };
 
+/// Which program serves a view (EffectProgram).
+enum class Serving {
+  kItsSet,    ///< the one for its set of active effects, compiled if need be
+  kCompiled,  ///< that one if it is there, otherwise one that serves any set
+  kAny        ///< the one that serves any set
+};
+
 /// What effects share with the renderer that draws them.
 struct EffectHost {
   const EffectShaders& shaders;
@@ -52,6 +59,7 @@ struct EffectView {
   double above_ground_m;  ///< of the eye, at least what a camera counts as; under water at most its depth
   std::optional<double> water_m;  ///< height of the water over or under the eye, where an effect draws water
   int active = 0;                 ///< effects of the view, as EffectShaders has it; when passes are drawn
+  Serving serving = Serving::kItsSet;
 };
 
 /// Whether an effect has anything to do in a view, and why: for people, a few words.
@@ -118,8 +126,10 @@ class Effect {
   /// where there is none. Of the view's members water_m is not known yet.
   virtual std::optional<double> water_height_m(const EffectView& /*view*/) const { return std::nullopt; }
 
-  /// Has the programs of its own passes compiled; once, before the first frame.
+  /// Makes what its own passes are drawn with; once, before the first frame.
   virtual void compile(const EffectHost& /*host*/) {}
+  /// Has the programs compiled that frames in real time would wait for.
+  virtual void warm_up() {}
   /// Before anything of a view is drawn in which it is active: makes what is missing, brings it to the
   /// instant and binds block and textures.
   virtual void prepare(const EffectView& /*view*/, const Bindings& /*bindings*/) {}

@@ -8,13 +8,6 @@
 
 namespace globe::render {
 
-/// Which program serves a view.
-enum class Serving {
-  kItsSet,    ///< the one for its set of active effects, compiled if need be
-  kCompiled,  ///< that one if it is there, otherwise one that serves any set
-  kAny        ///< the one that serves any set
-};
-
 /// A program that effects have parts in, compiled anew for each set of them that is active in some view.
 ///
 /// A program for one set has nothing in it of the others. A single program would pass over them by a branch

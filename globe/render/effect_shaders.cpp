@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kFile = "effects.glsl";
 constexpr unsigned kFirstBlock = 2;  ///< 0 and 1: the view's, the slots'
-constexpr unsigned kFirstUnit = 5;   ///< 0 to 4: the ground's and the sky's map
+constexpr unsigned kFirstUnit = 6;   ///< 0 to 5: the ground's, the sky's map, a region's water
 
 std::string in_capitals(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),

@@ -7,8 +7,8 @@
 namespace globe::render {
 namespace {
 
-constexpr double kAlike = 0.5;     ///< share of a step by which the next one may differ and still be a motion
-constexpr double kFarthest = 0.5;  ///< radians ahead
+constexpr double kAlike = 0.5;  ///< share of a step by which the next one may differ and still be a motion
+constexpr double kFarthestTurn = 0.5;  ///< radians ahead
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void Forecast::note(const Place& place) {
 Forecast::Place Forecast::ahead(int frames) const {
   Place place = last_;
   if (turns_) {
-    const double angle = std::min(glm::length(turn_) * frames, kFarthest);
+    const double angle = std::min(glm::length(turn_) * frames, kFarthestTurn);
     const glm::dvec3 along = glm::cross(glm::normalize(turn_), last_.u);
     place.u = glm::normalize(last_.u * std::cos(angle) + along * std::sin(angle));
   }

@@ -22,6 +22,15 @@ namespace {
 constexpr double kSunMoved =
     1e-3;  ///< radians (0.06 degrees) after which frames in real time light the ground anew
 
+Camera camera_over(const Room& room, const geo::Ellipsoid& ellipsoid) {
+  Camera camera;
+  camera.position = room.origin + ellipsoid.a * room.axes[2];
+  camera.forward = -room.axes[2];
+  camera.right = room.axes[0];
+  camera.up = room.axes[1];
+  return camera;
+}
+
 double milliseconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -29,7 +38,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point begin) {
 }  // namespace
 
 GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, const RenderSettings& settings,
-                             std::vector<NamedEffect> effects)
+                             std::vector<NamedEffect> effects, std::unique_ptr<RegionRenderer> region)
     : surface_(std::move(surface)),
       settings_(settings),
       effects_(std::move(effects)),
@@ -37,20 +46,29 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
       verdicts_(effects_.size()),
       patches_(settings.clipmap),
       view_(sizeof(ViewBlock)),
+      region_(std::move(region)),
       loader_(settings.clipmap, surface_, settings.max_level, settings.load_ahead) {
   const bool tinted = settings_.show != Show::kGround || settings_.wireframe;
   for (std::size_t k = 0; k < kLooks.size(); ++k)
     ground_[k] = {ground_sources(kLooks[k], textures(), tinted, settings_.air.haze), effect_shaders_};
+  for (std::size_t k = 0; region_ && k < kLooks.size(); ++k)
+    around_[k] = {ground_sources(kLooks[k], textures(), tinted, settings_.air.haze, true), effect_shaders_};
   if (!settings_.background) sky_.emplace(has_air(surface_->info()), settings_.air, effect_shaders_);
   if (effect_shaders_.may_keep_light()) light_.emplace();
   for (const NamedEffect& named : effects_) {
     named.effect->compile(effect_host());
     if (auto coloring = named.effect->coloring()) coloring_ = std::move(coloring);
   }
+  if (region_) region_->compile(effect_host(), coloring_.get());
 }
 
 double GlobeRenderer::height_above_ground(const glm::dvec3& position, bool wait) const {
-  return clipmap::height_above_ground(settings_.clipmap, *surface_, position, settings_.max_level, wait);
+  const double share = region_ ? region_->share_at(position) : 0.0;
+  double above = share > 0.0 ? share * region_->height_above_ground(position) : 0.0;
+  if (share < 1.0)
+    above += (1.0 - share) *
+             clipmap::height_above_ground(settings_.clipmap, *surface_, position, settings_.max_level, wait);
+  return above;
 }
 
 double GlobeRenderer::nearest_drawn(const glm::dvec3& position, bool wait) const {
@@ -67,14 +85,18 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
   camera.up = glm::dvec3(0, 0, 1);
   draw(camera, glm::dvec3(1, 0, 0), true, target);
   DrawList list = make_draw_list(settings_.clipmap, state(), textures(), surface_->ellipsoid(), camera,
-                                 settings_.clipmap.base_level, 0.0f, true);
+                                 {settings_.clipmap.base_level, 0.0f}, true);
   std::vector<Batch> batches;
-  batches.reserve(kLooks.size());
-  for (const Look& look : kLooks) {
-    batches.push_back(
-        {look, look.kind == Kind::kRim ? 1 : 0, 0, false, {list.batches.front().instances.front()}});
+  batches.reserve(2 * kLooks.size());
+  for (const RoomSide side : {RoomSide::kOutside, RoomSide::kAcross}) {
+    for (const Look& look : kLooks) {
+      if (side == RoomSide::kAcross && !region_) continue;
+      batches.push_back(
+          {look, look.kind == Kind::kRim ? 1 : 0, 0, false, side, {list.batches.front().instances.front()}});
+    }
   }
   list.batches = std::move(batches);
+  for (const NamedEffect& named : effects_) named.effect->warm_up();
   // Of the sets of effects: those of such a view, none, and whatever a frame in real time meets.
   const ViewBlock view = view_block(camera, *surface_, sun_, near_distance(surface_->ellipsoid(), above_m_));
   const int seen = active_;
@@ -83,6 +105,7 @@ void GlobeRenderer::warm_up(const gl::Framebuffer& target) {
        {std::pair(seen, Serving::kItsSet), std::pair(0, Serving::kItsSet), std::pair(0, Serving::kAny)}) {
     active_ = active;
     serving_ = serving;
+    if (region_) draw_region(camera_over(region_->room(), surface_->ellipsoid()), view, target.height());
     draw_ground(list);
     if (sky_) sky_->draw(view, active_, serving_);
   }
@@ -95,8 +118,15 @@ void GlobeRenderer::begin_frame(const glm::dvec3& position, const glm::dvec3& su
   sun_ = sun;
   auto begin = std::chrono::steady_clock::now();
   above_m_ = nearest_drawn(position, wait);
+  double away_m = above_m_;  // from the ground that this renderer draws
+  if (region_) {
+    region_->begin_frame(sun, wait);
+    stats_.upload_bytes += region_->upload_bytes();
+    const glm::dvec4 inside = region_->room().inside_m(position);
+    away_m = std::max(away_m, std::min({inside.x, inside.y, inside.z, inside.w}));
+  }
   const auto finest =
-      clipmap::finest_level(settings_.clipmap, surface_->root_edge(), above_m_, settings_.max_level);
+      clipmap::finest_level(settings_.clipmap, surface_->root_edge(), away_m, settings_.max_level);
   const geo::Geodetic place = geo::geodetic_from_ecef(surface_->ellipsoid(), position);
   clipmap::Target wanted{geo::normal_from_degrees(place.lat_deg, place.lon_deg),
                          finest.level,
@@ -109,7 +139,7 @@ void GlobeRenderer::begin_frame(const glm::dvec3& position, const glm::dvec3& su
   const Loader::Uploaded uploaded =
       whole ? loader_.load_whole(wanted) : loader_.load_some(wanted, above_m_, upload_ms);
   if (whole) begin = std::chrono::steady_clock::now();
-  stats_.upload_bytes = uploaded.bytes;
+  stats_.upload_bytes += uploaded.bytes;
   stats_.upload_ms = uploaded.ms;
   stats_.queued_jobs = loader_.queued_jobs();
   stats_.queued_bytes = textures().queued_bytes();
@@ -132,7 +162,7 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
   const auto begin = std::chrono::steady_clock::now();
   const ViewBlock view = view_block(camera, *surface_, sun_, near_distance(surface_->ellipsoid(), above_m_));
   const DrawList list = make_draw_list(settings_.clipmap, state(), textures(), surface_->ellipsoid(), camera,
-                                       shown_.level, shown_.fade, settings_.cull_patches);
+                                       shown_, settings_.cull_patches, region_ ? &region_->room() : nullptr);
   stats_.cpu_ms += milliseconds_since(begin);
   stats_.patches += list.patches;
 
@@ -152,11 +182,12 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
 
   const glm::vec3 shown = settings_.background.value_or(glm::vec3(0.0f));
   begin_ground(picture, settings_.cull_faces, keep_light ? light_shown_as(shown) : shown);
+  if (region_) draw_region(camera, view, target.height());
   draw_ground(list);
   if (sky_) sky_->draw(view, active_, serving_);
   if (!keep_light) return;
-  const EffectView light_view{host, camera,   view,     *surface_,           list,   picture, instant_,
-                              sun_, height_m, above_m_, effect_view.water_m, active_};
+  const EffectView light_view{host, camera,   view,     *surface_,           list,    picture, instant_,
+                              sun_, height_m, above_m_, effect_view.water_m, active_, serving_};
   for (const Stage stage : {Stage::kHeavens, Stage::kSurface, Stage::kLayer, Stage::kLens}) {
     if (stage == Stage::kSurface || !settings_.background) draw_passes(light_view, stage);
   }
@@ -212,16 +243,34 @@ void GlobeRenderer::draw_ground(const DrawList& list) {
 }
 
 void GlobeRenderer::draw_batches(const DrawList& list, const glm::vec4& overlay) {
-  patches_.draw(list, textures(), [&](const Batch& batch) {
-    EffectProgram& ground = ground_[static_cast<std::size_t>(
-        std::find(kLooks.begin(), kLooks.end(), batch.look) - kLooks.begin())];
-    const gl::Program& program = ground.for_active(active_, serving_);
+  patches_.draw(list, textures(), [&](const Batch& batch) -> const gl::Program* {
+    if (batch.room == RoomSide::kInside) return nullptr;
+    const gl::Program& program = program_for(batch);
     if (settings_.show != Show::kGround || settings_.wireframe) {
       program.set(3, overlay);
       program.set(4, static_cast<int>(settings_.show));
     }
     return &program;
   });
+}
+
+const gl::Program& GlobeRenderer::program_for(const Batch& batch) {
+  const auto k =
+      static_cast<std::size_t>(std::find(kLooks.begin(), kLooks.end(), batch.look) - kLooks.begin());
+  if (batch.room == RoomSide::kOutside) return ground_[k].for_active(active_, serving_);
+  const gl::Program& program = around_[k].for_active(active_, serving_);
+  program.set(5, glm::mat3(region_->room().axes));
+  program.set(6, eye_in_room_);
+  return program;
+}
+
+void GlobeRenderer::draw_region(const Camera& camera, const ViewBlock& view, int picture_height) {
+  eye_in_room_ = glm::vec4(region_->room().inside_m(camera.position));
+  region_->draw(
+      {camera, view, settings_.clipmap, loader_.state(), shown_, picture_height, active_, serving_});
+  stats_.triangles += region_->triangles();
+  stats_.patches += region_->patches();
+  stats_.gpu_bytes = textures().bytes() + region_->gpu_bytes();
 }
 
 }  // namespace globe::render

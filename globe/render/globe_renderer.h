@@ -22,6 +22,7 @@
 #include "globe/render/light_picture.h"
 #include "globe/render/loader.h"
 #include "globe/render/patch_drawer.h"
+#include "globe/render/region_renderer.h"
 #include "globe/render/sky.h"
 #include "globe/render/surface_renderer.h"
 
@@ -57,8 +58,9 @@ struct EffectState {
 class GlobeRenderer : public SurfaceRenderer {
  public:
   /// A GL context must be current and stay so.
+  /// @param region  what draws a part of the planet in place of this renderer's own ground, if any
   GlobeRenderer(std::shared_ptr<const planet::Surface> surface, const RenderSettings& settings,
-                std::vector<NamedEffect> effects = {});
+                std::vector<NamedEffect> effects = {}, std::unique_ptr<RegionRenderer> region = nullptr);
 
   void begin_frame(const glm::dvec3& position, const glm::dvec3& sun, bool wait, double upload_ms) override;
   void draw_view(const Camera& camera, const gl::Framebuffer& target) override;
@@ -87,11 +89,15 @@ class GlobeRenderer : public SurfaceRenderer {
   const ClipmapTextures& textures() const { return loader_.textures(); }
   /// What the last frame showed.
   const clipmap::ClipmapState& state() const { return *loader_.state(); }
+  /// What draws a part of the planet; null: nothing else does.
+  const RegionRenderer* region() const { return region_.get(); }
   const clipmap::Settings& clipmap_settings() const { return settings_.clipmap; }
 
  private:
   void draw_ground(const DrawList& list);
   void draw_batches(const DrawList& list, const glm::vec4& overlay);
+  void draw_region(const Camera& camera, const ViewBlock& view, int picture_height);
+  const gl::Program& program_for(const Batch& batch);
   EffectHost effect_host() const;
   /// Which effects are active in a view, prepared for it: one bit each.
   int prepare_effects(const EffectView& view);
@@ -108,8 +114,11 @@ class GlobeRenderer : public SurfaceRenderer {
   Instant instant_;
   PatchDrawer patches_;
   gl::Buffer view_;
+  std::unique_ptr<RegionRenderer> region_;           ///< null: none
   std::optional<LightPicture> light_;                ///< where effects have passes
   std::array<EffectProgram, kLooks.size()> ground_;  ///< by Look, in the order of kLooks
+  std::array<EffectProgram, kLooks.size()> around_;  ///< likewise, of patches across the sides of a room
+  glm::vec4 eye_in_room_{0.0f};                      ///< of the view being drawn, shaders/clipmap.vert
   std::optional<Sky> sky_;                           ///< none with a background
   Loader loader_;
   Admission admission_;

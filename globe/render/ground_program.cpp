@@ -5,7 +5,7 @@
 namespace globe::render {
 
 gl::ProgramSources ground_sources(const Look& look, const ClipmapTextures& textures, bool tinted,
-                                  int haze_steps) {
+                                  int haze_steps, bool room) {
   gl::ProgramSources sources;
   sources.files = {"clipmap.vert", "clipmap.frag"};
   sources.defines = textures.defines();
@@ -17,6 +17,7 @@ gl::ProgramSources ground_sources(const Look& look, const ClipmapTextures& textu
   if (look.kind != Kind::kPlain && look.shading != Shading::kFine) sources.defines.push_back("SHADE_COARSE");
   if (look.shading == Shading::kGlint) sources.defines.push_back("GLINT");
   if (tinted) sources.defines.push_back("SHOW");
+  if (room) sources.defines.push_back("ROOM");
   return sources;
 }
 

@@ -10,7 +10,8 @@ namespace globe::render {
 ///
 /// @param tinted  with the uniforms `overlay` and `show` of shaders/clipmap.frag
 /// @param haze_steps  AirSteps::haze
+/// @param room    with the uniforms `room_axes` and `eye_in_room` of shaders/clipmap.vert
 gl::ProgramSources ground_sources(const Look& look, const ClipmapTextures& textures, bool tinted,
-                                  int haze_steps);
+                                  int haze_steps, bool room = false);
 
 }  // namespace globe::render

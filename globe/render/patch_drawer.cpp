@@ -74,7 +74,8 @@ void PatchDrawer::draw(const DrawList& list, const ClipmapTextures& textures,
 std::size_t PatchDrawer::triangles(const DrawList& list) const {
   std::size_t triangles = 0;
   for (const Batch& batch : list.batches)
-    triangles += batch.instances.size() * mesh_.indices[static_cast<std::size_t>(batch.rim)].size() / 3;
+    if (batch.room != RoomSide::kInside)
+      triangles += batch.instances.size() * mesh_.indices[static_cast<std::size_t>(batch.rim)].size() / 3;
   return triangles;
 }
 

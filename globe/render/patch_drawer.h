@@ -30,6 +30,7 @@ class PatchDrawer {
   /// `rim` are set here.
   void draw(const DrawList& list, const ClipmapTextures& textures, const ProgramFor& program_for) const;
 
+  /// Those of the ground: the patches inside a room are for seas alone.
   std::size_t triangles(const DrawList& list) const;
 
  private:

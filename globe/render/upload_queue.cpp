@@ -10,8 +10,8 @@ namespace {
 
 using clipmap::NodeRect;
 
-constexpr double kFirstPace = 1e-6;  ///< milliseconds a byte: 1 GB/s, until something was measured
-constexpr double kNewest = 0.25;     ///< weight of the newest measurement
+constexpr double kFirstPace = 1e-6;   ///< milliseconds a byte: 1 GB/s, until something was measured
+constexpr double kNewestPace = 0.25;  ///< weight of the newest measurement
 
 std::pair<NodeRect, NodeRect> halves(const NodeRect& rect) {
   NodeRect first = rect, second = rect;
@@ -78,7 +78,7 @@ double UploadQueue::affordable(const UploadJob& job, double ms) const {
 void UploadQueue::note(const UploadJob& job, double took_ms) {
   double& pace = ms_a_byte_[static_cast<std::size_t>(job.kind)];
   // A clock too coarse to see the job says nothing of it.
-  if (took_ms > 0.0) pace += kNewest * (took_ms / static_cast<double>(job.bytes()) - pace);
+  if (took_ms > 0.0) pace += kNewestPace * (took_ms / static_cast<double>(job.bytes()) - pace);
 }
 
 double UploadQueue::steady_milliseconds() {

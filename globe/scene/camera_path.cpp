@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 
+#include "globe/base/angles.h"
 #include "globe/scene/flight_path.h"
 
 namespace globe::scene {
@@ -13,7 +13,6 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kNearPole = 0.08715574274765817;  ///< sine of 5 degrees
 constexpr int kSamples = 16;                       ///< of a piece, to see how near to an axis it comes
 
@@ -82,12 +81,12 @@ dvec3 reference_for(const std::vector<double>& times, const SphereCurve& place) 
 /// Degrees clockwise, seen from above, from the direction toward a reference to a tangent.
 double angle_from(const dvec3& reference, const dvec3& u, const dvec3& tangent) {
   const dvec3 ahead = reference - u * glm::dot(reference, u);
-  return std::atan2(glm::dot(glm::cross(tangent, ahead), u), glm::dot(tangent, ahead)) * kDegrees;
+  return std::atan2(glm::dot(glm::cross(tangent, ahead), u), glm::dot(tangent, ahead)) * kRadian;
 }
 
 dvec3 turned_from(const dvec3& reference, const dvec3& u, double angle_deg) {
   const dvec3 ahead = glm::normalize(reference - u * glm::dot(reference, u));
-  return ahead * std::cos(angle_deg / kDegrees) + glm::cross(ahead, u) * std::sin(angle_deg / kDegrees);
+  return ahead * std::cos(angle_deg / kRadian) + glm::cross(ahead, u) * std::sin(angle_deg / kRadian);
 }
 
 dvec3 tangent_of_heading(const dvec3& u, double heading_deg) {
@@ -98,7 +97,7 @@ dvec3 tangent_of_heading(const dvec3& u, double heading_deg) {
 double heading_of_tangent(const dvec3& u, const dvec3& tangent) {
   const geo::Geodetic place = geo::degrees_from_normal(u);
   const geo::LocalFrame frame = geo::local_frame(place.lat_deg, place.lon_deg);
-  return std::atan2(glm::dot(tangent, frame.east), glm::dot(tangent, frame.north)) * kDegrees;
+  return std::atan2(glm::dot(tangent, frame.east), glm::dot(tangent, frame.north)) * kRadian;
 }
 
 /// Headings of the stops from a reference, each the short way round from the one before.

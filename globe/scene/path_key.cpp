@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
+#include "globe/base/angles.h"
 #include "globe/base/error.h"
 
 namespace globe::scene {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kFarthest_m = 1e10;
 constexpr double kSteep = 1e-7;  ///< radians from straight down
 
@@ -33,12 +32,12 @@ PathStop standing(const PathKey& key, const geo::Ellipsoid& ellipsoid,
     place =
         geo::geodetic_from_ecef(ellipsoid, geo::ecef_from_geodetic(ellipsoid, place) - forward * key.range_m);
     const geo::LocalFrame here = geo::local_frame(place.lat_deg, place.lon_deg);
-    const double pitch = std::asin(std::clamp(glm::dot(forward, here.up), -1.0, 1.0)) * kDegrees;
+    const double pitch = std::asin(std::clamp(glm::dot(forward, here.up), -1.0, 1.0)) * kRadian;
     // Straight down the heading is what points up in the picture.
     const bool steep = glm::length(glm::cross(forward, here.up)) < kSteep;
     const glm::dvec3 ahead =
         steep ? geo::look_direction(there, key.look->heading_deg, key.look->pitch_deg + 90.0) : forward;
-    stop.look = Look{std::atan2(glm::dot(ahead, here.east), glm::dot(ahead, here.north)) * kDegrees, pitch};
+    stop.look = Look{std::atan2(glm::dot(ahead, here.east), glm::dot(ahead, here.north)) * kRadian, pitch};
   }
   stop.u = geo::normal_from_degrees(place.lat_deg, place.lon_deg);
   stop.ground_m = ground_m(place);

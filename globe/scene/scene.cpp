@@ -152,6 +152,25 @@ Path read_path(Fields fields) {
   return path;
 }
 
+constexpr double kWidestRegion = 1e6, kClosestPosts = 0.01;  ///< metres
+constexpr int kMostPosts = 4097, kLeastCells = 16;           ///< a side
+
+Region read_region(Fields fields) {
+  Region region;
+  region.center = fields.required("center", fields.place("center"), "write center = \"LAT,LON\"").position;
+  region.side_m = fields.length_m("side", {1.0, kWidestRegion}).value_or(region.side_m);
+  region.spacing_m = fields.length_m("spacing", {kClosestPosts, kWidestRegion});
+  if (region.spacing_m && region.side_m / *region.spacing_m > kMostPosts - 1)
+    fields.refuse("spacing", "it makes more than 4097 posts a side", "give a larger one, or a smaller side");
+  if (region.spacing_m && region.side_m / *region.spacing_m < kLeastCells)
+    fields.refuse("spacing", "it makes less than 17 posts a side", "give a smaller one, or a larger side");
+  region.error_px = fields.number("error", {0.0, 1000.0}).value_or(region.error_px);
+  region.shadows = fields.flag("shadows").value_or(region.shadows);
+  region.materials = fields.flag("materials").value_or(region.materials);
+  fields.finish();
+  return region;
+}
+
 Sun read_sun(Fields fields) {
   Sun sun;
   sun.time = fields.date("time");
@@ -223,6 +242,7 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file,
     fields.refuse("path", "there is a [camera] too", "leave one of them out: a camera stands or moves");
   if (camera) scene.camera = read_camera(*camera, scene.picture);
   if (path) scene.path = read_path(*path);
+  if (const auto region = fields.table("region")) scene.region = read_region(*region);
   if (const auto sun = fields.table("sun")) scene.sun = read_sun(*sun);
   if (const Value* effects = std::get<Table>(document.is).find("effects"))
     scene.effects = read_effects(fields, *effects, known);

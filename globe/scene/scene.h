@@ -49,6 +49,17 @@ struct Path {
   double low_pitch_deg = -10.0;      ///< of places without a look, low down
 };
 
+/// [region]: a square part of the planet whose ground is drawn by geomipmapping (flat/) in place of the
+/// globe's.
+struct Region {
+  geo::Geodetic center;
+  double side_m = 40e3;
+  std::optional<double> spacing_m;  ///< between posts; 1/1024 of the side without
+  double error_px = 1.0;            ///< most that its mesh may be off on screen
+  bool shadows = true;              ///< its ground throws some
+  bool materials = false;           ///< grass, stone and mud, a pass each
+};
+
 /// [sun]: at most one of the three.
 struct Sun {
   std::optional<std::string> time;        ///< ISO 8601
@@ -83,6 +94,7 @@ struct Scene {
   Picture picture;
   std::optional<StandingCamera> camera;
   std::optional<Path> path;
+  std::optional<Region> region;
   Sun sun;
   std::vector<Effect> effects;  ///< in the file's order
 };

@@ -5,11 +5,12 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "globe/base/angles.h"
+
 namespace globe::search {
 namespace {
 
 using geo::dvec3;
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 double angle(const dvec3& a, const dvec3& b) {
   return 2.0 * std::atan2(glm::length(a - b), glm::length(a + b));
@@ -62,7 +63,7 @@ void NearestPlace::look_at_point(const geo::Geodetic& at, const dvec3& u) {
 }
 
 void NearestPlace::look_at_edge(const dvec3& a, const dvec3& b) {
-  constexpr double kPiece = 2.0 * kRadians;
+  constexpr double kPiece = 2.0 * kDegree;
   if (a == b) return;
   const Arc arc(a, b);
   const auto pieces = static_cast<int>(std::ceil(arc.length / kPiece));
@@ -80,8 +81,8 @@ double NearestPlace::slope(const Arc& arc, double x) const {
   const double e2 = ellipsoid_.f * (2.0 - ellipsoid_.f);
   const double w2 = 1.0 - e2 * u.z * u.z;
   const double across = ellipsoid_.a / std::sqrt(w2), along = across * (1.0 - e2) / w2;
-  return std::sin(azimuth_there * kRadians) * across * glm::dot(direction, frame.east) +
-         std::cos(azimuth_there * kRadians) * along * glm::dot(direction, frame.north);
+  return std::sin(azimuth_there * kDegree) * across * glm::dot(direction, frame.east) +
+         std::cos(azimuth_there * kDegree) * along * glm::dot(direction, frame.north);
 }
 
 void NearestPlace::look_at(const Arc& arc, double x) {

@@ -28,6 +28,9 @@ in Shading {
 #ifdef SEA
   centroid float depth;
 #endif
+#ifdef ROOM
+  vec4 in_room;
+#endif
 } shading;
 flat in vec3 layers;  // fine, coarse, level
 

@@ -12,13 +12,8 @@ namespace {
 
 using cli::Outcome;
 using cli::run_program;
+using cli::text_of;
 using nlohmann::json;
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 TEST(AccuracyCommand, GivesTheSameErrorsTwiceAndTimesWithTheirQuartiles) {
   const tests::TemporaryFolder folder;

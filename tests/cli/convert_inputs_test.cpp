@@ -60,7 +60,7 @@ Outcome convert(std::vector<std::string> words, const std::string& planet) {
   return run_program(words);
 }
 
-double height(const std::string& planet, const std::string& place) {
+double height_at(const std::string& planet, const std::string& place) {
   const Outcome run = run_program({"height", planet, place, "--json"});
   EXPECT_EQ(run.status, 0) << run.err;
   return nlohmann::json::parse(run.out)["height_m"];
@@ -84,11 +84,11 @@ TEST_F(ConvertInputs, LieOneOverTheOtherAndVoidsShowWhatIsBelow) {
   EXPECT_NE(made.err.find("degrees (assumed; --crs)"), std::string::npos) << made.err;
   EXPECT_NE(made.err.find("showing the maps below"), std::string::npos) << made.err;
   EXPECT_EQ(made.err.find("no map covers"), std::string::npos) << made.err;
-  EXPECT_EQ(height(planet_, "24 24"), 500.5);
-  EXPECT_EQ(height(planet_, "30 30"), 100.5);
-  EXPECT_EQ(height(planet_, "0 0"), 100.5);
+  EXPECT_EQ(height_at(planet_, "24 24"), 500.5);
+  EXPECT_EQ(height_at(planet_, "30 30"), 100.5);
+  EXPECT_EQ(height_at(planet_, "0 0"), 100.5);
   ASSERT_EQ(convert({above, below, "--level", "6", "--quiet"}, planet_).status, 0);
-  EXPECT_EQ(height(planet_, "24 24"), 100.5);
+  EXPECT_EQ(height_at(planet_, "24 24"), 100.5);
   EXPECT_EQ(run_program({"info", planet_, "--verify"}).status, 0);
 }
 
@@ -115,12 +115,12 @@ TEST_F(ConvertInputs, OfARegionAloneLeaveTheRestAtZeroAndSaySo) {
   ASSERT_NE(at, std::string::npos) << made.err;
   EXPECT_NEAR(std::stod(made.err.substr(at + 14)), share, 0.05) << made.err;
   EXPECT_NE(made.err.find("globe inset"), std::string::npos) << made.err;
-  EXPECT_EQ(height(planet_, "24 24"), 500.5);
-  EXPECT_EQ(height(planet_, "30 30"), 500.5) << "filled from around";
-  EXPECT_EQ(height(planet_, "-10 100"), 0.0);
+  EXPECT_EQ(height_at(planet_, "24 24"), 500.5);
+  EXPECT_EQ(height_at(planet_, "30 30"), 500.5) << "filled from around";
+  EXPECT_EQ(height_at(planet_, "-10 100"), 0.0);
   ASSERT_EQ(convert({map, "--level", "6", "--quiet", "--voids", "zero"}, planet_).status, 0);
-  EXPECT_EQ(height(planet_, "24 24"), 500.5);
-  EXPECT_EQ(height(planet_, "30 30"), 0.0);
+  EXPECT_EQ(height_at(planet_, "24 24"), 500.5);
+  EXPECT_EQ(height_at(planet_, "30 30"), 0.0);
 }
 
 TEST_F(ConvertInputs, VoidsThatAreMarkedAreKnownAsFilledFromThenOn) {
@@ -138,7 +138,7 @@ TEST_F(ConvertInputs, VoidsThatAreMarkedAreKnownAsFilledFromThenOn) {
   EXPECT_EQ(source("30 30", {"--level", "5"}), "filled");
   EXPECT_EQ(source("-10 100", {}), "filled") << "no map there";
   EXPECT_EQ(source("30 30", {"--level", "12"}), "synthesised");
-  EXPECT_EQ(height(planet_, "30 30"), 500.5) << "drawn and answered as though it were filled";
+  EXPECT_EQ(height_at(planet_, "30 30"), 500.5) << "drawn and answered as though it were filled";
   EXPECT_EQ(run_program({"info", planet_, "--verify"}).status, 0);
 
   // As a map again, with the voids it had: half a degree a pixel, so those within a node of the hole go too.
@@ -187,11 +187,11 @@ TEST_F(ConvertInputs, CountFromTheEllipsoidWithAGeoid) {
   const std::string map = world(100).write(folder_ / "world.asc");
   const std::string geoid = world(30).write(folder_ / "geoid.asc");
   ASSERT_EQ(convert({map, "--level", "4", "--geoid", geoid, "--quiet"}, planet_).status, 0);
-  EXPECT_EQ(height(planet_, "12 34"), 131.0);
+  EXPECT_EQ(height_at(planet_, "12 34"), 131.0);
   EXPECT_EQ(datum(planet_), "ellipsoid");
   EXPECT_EQ(run_program({"info", planet_, "--verify"}).status, 0);
   ASSERT_EQ(convert({map, "--level", "4", "--datum", "EGM2008 height", "--quiet"}, planet_).status, 0);
-  EXPECT_EQ(height(planet_, "12 34"), 100.5);
+  EXPECT_EQ(height_at(planet_, "12 34"), 100.5);
   EXPECT_EQ(datum(planet_), "EGM2008 height");
   ASSERT_EQ(convert({map, "--level", "4", "--quiet"}, planet_).status, 0);
   EXPECT_EQ(datum(planet_), "unknown");
@@ -201,22 +201,22 @@ TEST_F(ConvertInputs, HearWhatIsSaidOfAllOrOfEach) {
   const std::string below = world(100).write(folder_ / "world.asc");
   const std::string above = region(500).write(folder_ / "region.asc");
   ASSERT_EQ(convert({below, above, "--level", "6", "--units", "ft", "--quiet"}, planet_).status, 0);
-  EXPECT_FLOAT_EQ(static_cast<float>(height(planet_, "0 0")), 100.5F * 0.3048F);
-  EXPECT_FLOAT_EQ(static_cast<float>(height(planet_, "24 24")), 500.5F * 0.3048F);
+  EXPECT_FLOAT_EQ(static_cast<float>(height_at(planet_, "0 0")), 100.5F * 0.3048F);
+  EXPECT_FLOAT_EQ(static_cast<float>(height_at(planet_, "24 24")), 500.5F * 0.3048F);
   ASSERT_EQ(convert({below, above, "--level", "6", "--scale", "auto", "--scale", "2", "--offset", "1",
                      "--offset", "-1", "--quiet"},
                     planet_)
                 .status,
             0);
-  EXPECT_EQ(height(planet_, "0 0"), 101.5);
-  EXPECT_EQ(height(planet_, "24 24"), 1000.0);
+  EXPECT_EQ(height_at(planet_, "0 0"), 101.5);
+  EXPECT_EQ(height_at(planet_, "24 24"), 1000.0);
   ASSERT_EQ(convert({below, above, "--level", "6", "--nodata", "auto", "--nodata", "500.5", "--extent",
                      "auto", "--extent", "60,20,80,40", "--quiet"},
                     planet_)
                 .status,
             0);
-  EXPECT_EQ(height(planet_, "24 24"), 100.5) << "moved by its extent";
-  EXPECT_EQ(height(planet_, "24 64"), 100.5) << "no data";
+  EXPECT_EQ(height_at(planet_, "24 24"), 100.5) << "moved by its extent";
+  EXPECT_EQ(height_at(planet_, "24 64"), 100.5) << "no data";
   cli::expect_refusals("convert",
                        {{{below, above, "-o", planet_, "--scale", "1", "--scale", "1", "--scale", "1"}, 2},
                         {{below, "-o", planet_, "--crs", "atlantis", "--overwrite", "--quiet"}, 2},

@@ -39,9 +39,9 @@ TEST(ConvertCommand, MakesAPlanetThatInfoDescribes) {
                            "longitudes -180 to 180, latitudes -90 to 90 (assumed"})
     EXPECT_NE(made.err.find(part), std::string::npos) << part << " in " << made.err;
 
-  const Outcome json = run_program({"info", planet, "--json", "--verify"});
-  ASSERT_EQ(json.status, 0) << json.err;
-  const nlohmann::json info = nlohmann::json::parse(json.out);
+  const Outcome told = run_program({"info", planet, "--json", "--verify"});
+  ASSERT_EQ(told.status, 0) << told.err;
+  const nlohmann::json info = nlohmann::json::parse(told.out);
   EXPECT_EQ(info["layers"][0]["name"], "height");
   EXPECT_EQ(info["layers"][0]["level"], 5);
   EXPECT_EQ(info["credits"][0], "by hand");

@@ -16,14 +16,10 @@ namespace {
 
 using cli::Outcome;
 using cli::run_program;
+using cli::with;
 using nlohmann::json;
 
 using Words = std::vector<std::string>;
-
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
 
 const std::string kCamera = "[camera]\nat = \"-43.42,-106.43,300\"\nagl = true\nlook = \"110,-10\"\n";
 const Words kTiny{"--size", "64x36", "--detail", "16"};
@@ -32,7 +28,7 @@ class Effects : public testing::Test {
  protected:
   void SetUp() override {
     const Outcome run =
-        run_program(Words{"shot", "procedural", "-o", file("probe.png"), "--at", "1 2 1e6"} + kTiny);
+        run_program(with({"shot", "procedural", "-o", file("probe.png"), "--at", "1 2 1e6"}, kTiny));
     if (run.status != 0) GTEST_SKIP() << "NO GRAPHICS HERE: " << run.err;
   }
 
@@ -43,7 +39,7 @@ class Effects : public testing::Test {
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
   std::string shot(const std::string& scene, const char* program = GLOBE_PROGRAM) const {
     const Outcome run = run_program(
-        Words{"shot", scene, "-o", file("shot.png"), "--overwrite", "--quiet"} + kTiny, "", program);
+        with({"shot", scene, "-o", file("shot.png"), "--overwrite", "--quiet"}, kTiny), "", program);
     EXPECT_EQ(run.status, 0) << run.err;
     return cli::text_of(file("shot.png"));
   }
@@ -61,7 +57,7 @@ TEST_F(Effects, AProgramWithoutAnyDrawsTheSameBytesForScenesThatNameNone) {
   const std::string foggy = write("fog.toml", kCamera + "[effects.fog]\n");
   EXPECT_NE(shot(foggy), shot(write("plain.toml", kCamera)));
   const Outcome refused =
-      run_program(Words{"shot", foggy, "-o", file("x.png")} + kTiny, "", GLOBE_WITHOUT_EFFECTS);
+      run_program(with({"shot", foggy, "-o", file("x.png")}, kTiny), "", GLOBE_WITHOUT_EFFECTS);
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.err.find(foggy + ":5: effects.fog: there is no effect \"fog\""), std::string::npos)
       << refused.err;
@@ -75,7 +71,7 @@ TEST_F(Effects, LeavingOneOutOfTheListChangesNothingOfTheOthers) {
   const std::string cloudy = write("cloudy.toml", kCamera + others + "[effects.clouds]\n");
   EXPECT_NE(shot(cloudy), shot(scene));
   const Outcome refused =
-      run_program(Words{"shot", cloudy, "-o", file("x.png")} + kTiny, "", GLOBE_WITHOUT_CLOUDS);
+      run_program(with({"shot", cloudy, "-o", file("x.png")}, kTiny), "", GLOBE_WITHOUT_CLOUDS);
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.err.find("there is no effect \"clouds\""), std::string::npos) << refused.err;
 }
@@ -84,7 +80,7 @@ TEST_F(Effects, ExplainTellsWhoAskedWhereItWorksAndWhatItCosts) {
   const std::string scene =
       write("s.toml", kCamera + "[sun]\naltitude = \"30 deg\"\nazimuth = \"290 deg\"\n" +
                           "[effects.fog]\nbase = \"1 km\"\n[effects.lens_flare]\n");
-  const Outcome run = run_program(Words{"explain", scene, "--json", "--rounds", "5", "--quiet"} + kTiny);
+  const Outcome run = run_program(with({"explain", scene, "--json", "--rounds", "5", "--quiet"}, kTiny));
   ASSERT_EQ(run.status, 0) << run.err;
   const json plan = json::parse(run.out);
   ASSERT_EQ(plan["effects"].size(), 2u);
@@ -107,16 +103,16 @@ TEST_F(Effects, ExplainTellsWhoAskedWhereItWorksAndWhatItCosts) {
     EXPECT_LE(plan[what]["low_ms"], plan[what]["median_ms"]);
     EXPECT_GE(plan[what]["high_ms"], plan[what]["median_ms"]);
   }
-  const Outcome text = run_program(Words{"explain", scene, "--rounds", "5", "--quiet"} + kTiny);
+  const Outcome text = run_program(with({"explain", scene, "--rounds", "5", "--quiet"}, kTiny));
   EXPECT_NE(text.out.find("no: the sun is out of the picture"), std::string::npos) << text.out;
 }
 
 TEST_F(Effects, ATraceTellsWhenAnEffectBecameActiveAndWhy) {
   const std::string scene = write("s.toml", "[effects.stars]\n");
   const Outcome run =
-      run_program(Words{"fly", scene, "-o", file("f.gif"), "--wait", "--frames", "12", "--quiet", "--trace",
-                        file("trace.json"), "--to", "-43.42,-106.43,300", "--agl"} +
-                  kTiny);
+      run_program(with({"fly", scene, "-o", file("f.gif"), "--wait", "--frames", "12", "--quiet", "--trace",
+                        file("trace.json"), "--to", "-43.42,-106.43,300", "--agl"},
+                       kTiny));
   ASSERT_EQ(run.status, 0) << run.err;
   const json trace = json::parse(cli::text_of(file("trace.json")));
   EXPECT_EQ(trace["frames"], 12);
@@ -139,7 +135,7 @@ TEST_F(Effects, AtTenAndAtSixtyFramesASecondAFlightEndsInTheSamePicture) {
   for (const char* fps : {"10", "60"}) {
     const std::string folder = file(fps);
     const Outcome run = run_program(
-        Words{"fly", scene, "-o", folder + "/####.png", "--wait", "--fps", fps, "--quiet"} + kTiny);
+        with({"fly", scene, "-o", folder + "/####.png", "--wait", "--fps", fps, "--quiet"}, kTiny));
     ASSERT_EQ(run.status, 0) << run.err;
     std::string last;
     for (const auto& entry : std::filesystem::directory_iterator(folder))

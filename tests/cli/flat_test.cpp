@@ -1,8 +1,11 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -75,6 +78,70 @@ TEST(Flat, VisibleSetsAreOfTheRegionTheyWereMadeFor) {
   EXPECT_EQ(other.status, 1);
   EXPECT_NE(other.err.find("was made for another region; make it again by globe flat pvs"),
             std::string::npos);
+}
+
+/// A scene with a region, the camera over it or beside.
+std::string region_scene(const tests::TemporaryFolder& folder, const std::string& more = "") {
+  std::string file = folder.path() / "s.toml";
+  std::ofstream(file) << "planet = 'procedural'\n[camera]\nat = '-43.42,-106.43,900'\nagl = true\n"
+                         "look = '110,-35'\n[region]\ncenter = '-43.43,-106.41'\nside = '4 km'\n"
+                         "spacing = '20 m'\n"
+                      << more;
+  return file;
+}
+
+TEST(FlatInAGlobe, APictureOfASceneHasItsRegionAndPickKnowsWhereItIs) {
+  const tests::TemporaryFolder folder;
+  const std::string scene = region_scene(folder), depth = folder.path() / "d.exr";
+  ASSERT_EQ(
+      run_program({"shot", scene, "-o", depth, "--show", "depth", "--size", "320x180", "--quiet"}).status, 0);
+  const auto image = OIIO::ImageInput::open(depth);
+  ASSERT_TRUE(image);
+  std::vector<float> metres(320 * 180 * static_cast<std::size_t>(image->spec().nchannels));
+  ASSERT_TRUE(image->read_image(0, 0, 0, image->spec().nchannels, OIIO::TypeDesc::FLOAT, metres.data()));
+  int of_region = 0;
+  for (const auto& [x, y] :
+       {std::pair(160, 90), std::pair(40, 150), std::pair(300, 100), std::pair(160, 20)}) {
+    const Outcome picked = run_program({"pick", scene, "--size", "320x180", "--pixel",
+                                        std::to_string(x) + "," + std::to_string(y), "--json"});
+    ASSERT_EQ(picked.status, 0) << picked.err;
+    const auto point = nlohmann::json::parse(picked.out);
+    // Depth counts along the camera's axis: tangents of the field of view's halves, 60 degrees high.
+    const double up = std::tan(std::numbers::pi / 6.0) * (1.0 - 2.0 * (y + 0.5) / 180.0);
+    const double right = std::tan(std::numbers::pi / 6.0) * 16.0 / 9.0 * (2.0 * (x + 0.5) / 320.0 - 1.0);
+    const double along = point["distance_m"].get<double>() / std::sqrt(1.0 + up * up + right * right);
+    const auto k = static_cast<std::size_t>(y * 320 + x) * static_cast<std::size_t>(image->spec().nchannels);
+    EXPECT_NEAR(static_cast<double>(metres[k]) / along, 1.0, 0.01) << x << ',' << y;
+    of_region += point["level"] == 19;  // whose nodes are as close as the posts
+  }
+  EXPECT_GE(of_region, 2);
+}
+
+TEST(FlatInAGlobe, AFlightAndAPlanHaveItToo) {
+  const tests::TemporaryFolder folder;
+  const std::string scene = region_scene(folder);
+  const Outcome flown =
+      run_program({"fly", scene, "--from", "-43.42,-106.46,1500", "--to", "-43.43,-106.41,3", "--agl",
+                   "--frames", "4", "--wait", "--size", "160x90", "-o", folder.path() / "f" / "####.png",
+                   "--stats", folder.path() / "s.json", "--quiet"});
+  ASSERT_EQ(flown.status, 0) << flown.err;
+  const auto stats = nlohmann::json::parse(cli::text_of(folder.path() / "s.json"));
+  for (const auto& frame : stats["frames"]) EXPECT_GE(frame["above_ground_m"], 1.99);
+  const Outcome planned = run_program({"explain", scene, "--size", "160x90", "--rounds", "5", "--json"});
+  ASSERT_EQ(planned.status, 0) << planned.err;
+  const auto plan = nlohmann::json::parse(planned.out);
+  EXPECT_GT(plan["region"]["patches"], 10);
+  EXPECT_GT(plan["region"]["triangles"], 100);
+}
+
+TEST(FlatInAGlobe, TheSameSceneIsARegionAlone) {
+  const tests::TemporaryFolder folder;
+  const Outcome alone =
+      run_program({"flat", "shot", region_scene(folder, "[effects.fog]\nvisibility = '9 km'\n"), "-o",
+                   folder.path() / "a.png", "--size", "160x90"});
+  ASSERT_EQ(alone.status, 0) << alone.err;
+  EXPECT_NE(alone.err.find("of 144 patches"), std::string::npos) << alone.err;  // 4 km of 12 by 12
+  EXPECT_NE(alone.err.find("effects.fog: not drawn over a region alone"), std::string::npos) << alone.err;
 }
 
 TEST(Flat, RefusesInOneLine) {

@@ -47,9 +47,9 @@ TEST_F(InfoCommand, VerifyTellsOfDamageOnStandardErrorAndByItsStatus) {
             std::string::npos)
       << damaged.err;
   EXPECT_EQ(damaged.out.find("verified"), std::string::npos);
-  const nlohmann::json json = nlohmann::json::parse(run_program({"info", planet_, "--verify", "--json"}).out);
-  EXPECT_FALSE(json["damage"].empty());
-  EXPECT_EQ(json["verified"]["files"], 17);
+  const nlohmann::json info = nlohmann::json::parse(run_program({"info", planet_, "--verify", "--json"}).out);
+  EXPECT_FALSE(info["damage"].empty());
+  EXPECT_EQ(info["verified"]["files"], 17);
   EXPECT_EQ(run_program({"info", "procedural", "--verify"}).status, 0);
 }
 

@@ -15,16 +15,12 @@ namespace {
 
 using cli::Outcome;
 using cli::run_program;
+using cli::with;
 using nlohmann::json;
 
 /// A camera over the built-in planet's land that sees ground and sky.
-const std::vector<std::string> kCamera{"--at",   "46,7,4000", "--look",   "120,-10",
-                                       "--size", "320x180",   "--detail", "16"};
-
-std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
+const std::vector<std::string> kPickCamera{"--at",   "46,7,4000", "--look",   "120,-10",
+                                           "--size", "320x180",   "--detail", "16"};
 
 json pick(const std::string& planet, const std::vector<std::string>& options) {
   const Outcome run = run_program(with({"pick", planet, "--json"}, options));
@@ -34,7 +30,7 @@ json pick(const std::string& planet, const std::vector<std::string>& options) {
 
 TEST(Pick, AnswersTheKeysOfTheContract) {
   const Outcome run =
-      run_program(with(with({"pick", "procedural", "--json"}, kCamera), {"--pixel", "160,90"}));
+      run_program(with(with({"pick", "procedural", "--json"}, kPickCamera), {"--pixel", "160,90"}));
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.err, "");
   const auto object = nlohmann::ordered_json::parse(run.out);
@@ -48,7 +44,7 @@ TEST(Pick, AnswersTheKeysOfTheContract) {
 }
 
 TEST(Pick, SkyIsAnAnswer) {
-  const json sky = pick("procedural", with(kCamera, {"--pixel", "0,0"}));
+  const json sky = pick("procedural", with(kPickCamera, {"--pixel", "0,0"}));
   EXPECT_TRUE(sky["sky"].get<bool>());
   for (const char* key : {"lat", "lon", "height_m", "distance_m", "level", "alpha"})
     EXPECT_TRUE(sky[key].is_null()) << key;
@@ -93,7 +89,7 @@ TEST(Pick, ThePixelsOfAPictureAreThoseOfItsDepth) {
 }
 
 TEST(Pick, ReadsAPixelALineAndAnswersBadOnesOnTheirOwn) {
-  const Outcome run = run_program(with({"pick", "procedural", "--precision", "3"}, kCamera),
+  const Outcome run = run_program(with({"pick", "procedural", "--precision", "3"}, kPickCamera),
                                   "# pixels\n160,90\n160 90\n 160 , 90\n0,0\n320,0\n-1,0\n1.5,2\nx,y\n7\n");
   EXPECT_EQ(run.status, 1);
   const auto lines = run.lines();
@@ -104,7 +100,7 @@ TEST(Pick, ReadsAPixelALineAndAnswersBadOnesOnTheirOwn) {
   EXPECT_EQ(lines[4], "sky");
   for (std::size_t bad = 5; bad < 10; ++bad)
     EXPECT_EQ(lines[bad].substr(0, 13), "ERROR: line " + std::to_string(bad + 1).substr(0, 1)) << lines[bad];
-  const auto table = run_program(with(with({"pick", "procedural", "--csv"}, kCamera),
+  const auto table = run_program(with(with({"pick", "procedural", "--csv"}, kPickCamera),
                                       {"--pixel", "160,90", "--pixel", "0,0"}))
                          .lines();
   ASSERT_EQ(table.size(), 3u);
@@ -114,7 +110,7 @@ TEST(Pick, ReadsAPixelALineAndAnswersBadOnesOnTheirOwn) {
 }
 
 TEST(Pick, HeightDrawnAgreesWhereNothingIsMorphed) {
-  const json at = pick("procedural", with(kCamera, {"--pixel", "100,177"}));
+  const json at = pick("procedural", with(kPickCamera, {"--pixel", "100,177"}));
   ASSERT_EQ(at["alpha"], 0.0);
   char place[100];
   std::snprintf(place, sizeof place, "%.17g %.17g", at["lat"].get<double>(), at["lon"].get<double>());
@@ -137,8 +133,8 @@ TEST(Pick, ExaggeratedGroundStandsSoManyTimesAsHigh) {
 }
 
 TEST(Pick, WithoutMorphingALevelsGroundIsItsOwn) {
-  const json on = pick("procedural", with(kCamera, {"--pixel", "160,100"}));
-  const json off = pick("procedural", with(kCamera, {"--pixel", "160,100", "--morph", "off"}));
+  const json on = pick("procedural", with(kPickCamera, {"--pixel", "160,100"}));
+  const json off = pick("procedural", with(kPickCamera, {"--pixel", "160,100", "--morph", "off"}));
   EXPECT_EQ(off["alpha"], 0.0);
   EXPECT_NEAR(on["distance_m"].get<double>(), off["distance_m"].get<double>(),
               0.05 * on["distance_m"].get<double>());

@@ -22,6 +22,7 @@ namespace {
 
 using cli::Outcome;
 using cli::run_program;
+using cli::text_of;
 using nlohmann::json;
 
 constexpr double kStep = 2e-8;  // metres: two geodesics' errors
@@ -50,11 +51,6 @@ std::vector<Row> profile(std::vector<std::string> words) {
 
 double distance(const std::string& a, const std::string& b) {
   return json::parse(run_program({"distance", "--json", a, b}).out)["s12_m"].get<double>();
-}
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 bool has_gnuplot() { return std::system("gnuplot --version >/dev/null 2>&1") == 0; }

@@ -22,6 +22,12 @@
 
 namespace cli {
 
+/// Words of a command and more of them.
+inline std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 /// What a run of the program left behind.
 struct Outcome {
   std::string out, err;

@@ -19,6 +19,7 @@ namespace {
 
 using cli::Outcome;
 using cli::run_program;
+using cli::with;
 using nlohmann::json;
 using tests::TemporaryFolder;
 
@@ -51,19 +52,14 @@ class Scenes : public testing::Test {
   TemporaryFolder folder_;
 };
 
-const std::vector<std::string> kTiny{"--size", "64x48", "--detail", "16"};
-
-std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
+const std::vector<std::string> kSmall{"--size", "64x48", "--detail", "16"};
 
 TEST_F(Scenes, ALayerLeftOutIsNotDrawn) {
   cli::make_planet(folder_.path(), {"--ellipsoid", "moon"});
   const Outcome made = run_program({"convert", file("map.tif"), "--color", file("map.tif"), "--ellipsoid",
                                     "moon", "-o", file("colored"), "--quiet"});
   ASSERT_EQ(made.status, 0) << made.err;
-  const std::vector<std::string> look = with({"--at", "10,20,200km"}, kTiny);
+  const std::vector<std::string> look = with({"--at", "10,20,200km"}, kSmall);
   const std::string camera = "\n[sun]\noverhead = \"0,0\"\n";
   const std::string bare =
       shot(with({write("bare.toml", "planet = \"colored\"" + camera + "[layers]\ncolor = false\n")}, look));
@@ -164,13 +160,13 @@ TEST_F(Scenes, EveryExampleIsDrawn) {
   for (const auto& entry : std::filesystem::directory_iterator(kScenes)) {
     if (entry.path().extension() != ".toml") continue;
     ++count;
-    EXPECT_FALSE(shot(with({entry.path().string()}, kTiny)).empty()) << entry.path();
+    EXPECT_FALSE(shot(with({entry.path().string()}, kSmall)).empty()) << entry.path();
   }
   EXPECT_GE(count, 4u);
   for (const char* path : {"descent.toml", "tour.toml"}) {
     const Outcome run = run_program(with({"fly", kScenes + path, "-o", file(std::string(path) + "-####.png"),
                                           "--frames", "3", "--wait", "--quiet"},
-                                         kTiny));
+                                         kSmall));
     EXPECT_EQ(run.status, 0) << run.err;
   }
 }

@@ -27,7 +27,7 @@ json look(const std::string& planet, const std::string& a, const std::string& b,
   return json::parse(run.out);
 }
 
-double height(const std::string& planet, const std::string& point) {
+double ground_m(const std::string& planet, const std::string& point) {
   const Outcome run = run_program({"height", planet, "--json", point});
   EXPECT_EQ(run.status, 0) << run.out << run.err;
   return json::parse(run.out)["height_m"].get<double>();
@@ -53,11 +53,11 @@ TEST(Sight, AnswersTheKeysOfTheContract) {
 TEST(Sight, AnEyeWithoutAltStandsTwoMetresAboveGroundAndAglCountsFromThere) {
   const tests::TemporaryFolder folder;
   const std::string planet = cli::make_planet(folder.path(), {"--ellipsoid", "moon"});
-  const double ground = height(planet, "12.3 45.6");
+  const double ground = ground_m(planet, "12.3 45.6");
   EXPECT_NEAR(look(planet, "12.3 45.6", "12.3 45.7")["eye1_m"].get<double>(), ground + 2.0, 1e-6);
   const json agl = look(planet, "12.3 45.6 30", "12.3 45.7", {"--agl"});
   EXPECT_NEAR(agl["eye1_m"].get<double>(), ground + 30.0, 1e-6);
-  EXPECT_NEAR(agl["eye2_m"].get<double>(), height(planet, "12.3 45.7") + 2.0, 1e-6);
+  EXPECT_NEAR(agl["eye2_m"].get<double>(), ground_m(planet, "12.3 45.7") + 2.0, 1e-6);
   EXPECT_EQ(look(planet, "12.3 45.6 5000", "12.3 45.7")["eye1_m"], 5000.0);
   EXPECT_NEAR(look(planet, "12.3 45.6 5000", "12.3 45.6 9000")["clearance_m"].get<double>(), 5000.0 - ground,
               1e-6);
@@ -66,8 +66,8 @@ TEST(Sight, AnEyeWithoutAltStandsTwoMetresAboveGroundAndAglCountsFromThere) {
 TEST(Sight, TheSeaIsGroundAtHeightNothing) {
   // The built-in planet's sea: eyes 10 m above it have their horizons 11.3 km away, whatever its floor.
   const std::string sea = "0 0", far = "0 0.3";
-  ASSERT_LT(height("procedural", sea), -50.0);
-  ASSERT_LT(height("procedural", far), -50.0);
+  ASSERT_LT(ground_m("procedural", sea), -50.0);
+  ASSERT_LT(ground_m("procedural", far), -50.0);
   EXPECT_EQ(look("procedural", sea, far, {})["eye1_m"], 2.0);
   EXPECT_FALSE(look("procedural", "0 0 10", "0 0.3 10")["visible"].get<bool>());
   EXPECT_TRUE(look("procedural", "0 0 100", "0 0.3 100")["visible"].get<bool>());
@@ -89,7 +89,7 @@ TEST(Sight, WhereItIsBlockedStandsGround) {
   const json& at = found["blocked_at"];
   char place[100];
   std::snprintf(place, sizeof place, "%.17g %.17g", at["lat"].get<double>(), at["lon"].get<double>());
-  EXPECT_NEAR(height(planet, place), at["height_m"].get<double>(), 1e-3);
+  EXPECT_NEAR(ground_m(planet, place), at["height_m"].get<double>(), 1e-3);
   const Outcome distance = run_program({"distance", "10 20", place, "--ellipsoid", "moon"});
   EXPECT_NEAR(std::stod(distance.out), at["distance_m"].get<double>(), 1e-6);
   EXPECT_LT(found["clearance_m"].get<double>(), 0.0);

@@ -41,7 +41,7 @@ using globe::htm::trixel_at;
 using RegionPointer = std::shared_ptr<const Region>;
 
 /// A region, and how far around a place (radians) points are tried.
-struct Case {
+struct CoverCase {
   std::string name;
   RegionPointer region;
   dvec3 place;
@@ -92,7 +92,7 @@ struct Tally {
   std::size_t faults() const { return missed + wrongly_inside + disordered + over_budget; }
 };
 
-void try_case(const Case& c, std::mt19937_64& random, std::size_t points, Tally& tally) {
+void try_case(const CoverCase& c, std::mt19937_64& random, std::size_t points, Tally& tally) {
   const std::size_t faults_before = tally.faults();
   std::vector<dvec3> places;
   for (std::size_t k = 0; k < points; ++k) {
@@ -154,7 +154,7 @@ std::vector<dvec3> circle(const dvec3& center, double radius_rad, std::mt19937_6
   return points;
 }
 
-void add_cones(std::vector<Case>& cases, std::mt19937_64& random) {
+void add_cones(std::vector<CoverCase>& cases, std::mt19937_64& random) {
   for (const auto& at : nasty_places(random)) {
     const dvec3 center = normal_from_degrees(at.lat_deg, at.lon_deg);
     for (const double radius_deg :
@@ -167,7 +167,7 @@ void add_cones(std::vector<Case>& cases, std::mt19937_64& random) {
   }
 }
 
-void add_ellipsoid_cones(std::vector<Case>& cases, std::mt19937_64& random) {
+void add_ellipsoid_cones(std::vector<CoverCase>& cases, std::mt19937_64& random) {
   for (const auto& ellipsoid : {globe::geo::kWgs84, globe::geo::kMars, globe::geo::Ellipsoid{1e6, -0.02}}) {
     for (const auto& at : nasty_places(random)) {
       const dvec3 center = normal_from_degrees(at.lat_deg, at.lon_deg);
@@ -185,7 +185,7 @@ void add_ellipsoid_cones(std::vector<Case>& cases, std::mt19937_64& random) {
   }
 }
 
-void add_boxes(std::vector<Case>& cases, std::mt19937_64& random) {
+void add_boxes(std::vector<CoverCase>& cases, std::mt19937_64& random) {
   struct Sides {
     double w, s, e, n;
   };
@@ -233,7 +233,7 @@ std::vector<dvec3> along(const Polygon::Ring& ring) {
   return points;
 }
 
-void add_polygons(std::vector<Case>& cases, std::mt19937_64& random) {
+void add_polygons(std::vector<CoverCase>& cases, std::mt19937_64& random) {
   for (const auto& at : nasty_places(random)) {
     const dvec3 center = normal_from_degrees(at.lat_deg, at.lon_deg);
     for (const double radius_rad : {1e-8, 1e-3, 0.1, 1.2}) {
@@ -259,7 +259,7 @@ void add_polygons(std::vector<Case>& cases, std::mt19937_64& random) {
       {"a trixel", std::make_shared<Polygon>(Polygon::Rings{trixel}), own[0], 0.3, along(trixel)});
 }
 
-void add_map_polygons(std::vector<Case>& cases, std::mt19937_64&) {
+void add_map_polygons(std::vector<CoverCase>& cases, std::mt19937_64&) {
   using Rings = globe::region::MapPolygon::Rings;
   const std::vector<std::vector<Rings>> all{
       {{{{10, 20}, {10, 60}, {50, 70}, {45, 10}}}},
@@ -287,7 +287,7 @@ void add_map_polygons(std::vector<Case>& cases, std::mt19937_64&) {
 
 TEST(Cover, HoldsThePointsOfTheRegionAndTheInnerOneNoOthers) {
   std::mt19937_64 random(70);
-  std::vector<Case> cases;
+  std::vector<CoverCase> cases;
   add_cones(cases, random);
   add_ellipsoid_cones(cases, random);
   add_boxes(cases, random);

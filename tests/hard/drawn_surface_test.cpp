@@ -33,7 +33,7 @@ using globe::planet::Surface;
 using hard::dvec3;
 
 constexpr int kDetail = 16;
-constexpr int kMaxLevel = 26;
+constexpr int kFinestDrawn = 26;
 constexpr double kHitError = 1e-6;  ///< share of the distance
 constexpr double kPlaneError_m = 1e-6;
 
@@ -54,8 +54,8 @@ struct View {
     globe::geo::Geodetic place = globe::geo::degrees_from_normal(u);
     place.h_m = surface.drawn_height(surface.height(u, 20)) + above_m;
     position = globe::geo::ecef_from_geodetic(surface.ellipsoid(), place);
-    const double above = globe::clipmap::height_above_ground(settings, surface, position, kMaxLevel, true);
-    finest = globe::clipmap::finest_level(settings, surface.root_edge(), std::max(above, 0.1), kMaxLevel);
+    const double above = globe::clipmap::height_above_ground(settings, surface, position, kFinestDrawn, true);
+    finest = globe::clipmap::finest_level(settings, surface.root_edge(), std::max(above, 0.1), kFinestDrawn);
     state = globe::clipmap::advance(settings, surface, {u, finest.level, {}}, nullptr,
                                     globe::clipmap::Stride::kWhole)
                 .state;

@@ -22,7 +22,7 @@ using globe::geo::Geodetic;
 using hard::quad;
 using hard::square_root;
 
-constexpr double kNanometre = 1e-9;
+using hard::kNanometre;
 constexpr double kEcefError = 10 * kNanometre;
 constexpr double kFarUlps = 4;
 

@@ -27,14 +27,14 @@ double angle_between(const dvec3& a, const dvec3& b) {
 }
 
 /// Pairs of places: anywhere, log-uniformly near to each other, the same, antipodal and nearly so.
-struct Pair {
+struct FlightPair {
   dvec3 from, to;
   double from_height, to_height;
 };
 
-Pair random_pair(std::mt19937_64& random, std::size_t k) {
+FlightPair random_pair(std::mt19937_64& random, std::size_t k) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  Pair pair;
+  FlightPair pair;
   pair.from = hard::random_direction(random);
   const dvec3 aside = glm::normalize(glm::cross(pair.from, hard::random_direction(random)));
   const double small = std::pow(10.0, -9.0 + 9.4 * unit(random));
@@ -59,8 +59,10 @@ Pair random_pair(std::mt19937_64& random, std::size_t k) {
   return pair;
 }
 
-FlightPath path_of(const Pair& p) { return {p.from, p.from_height, p.to, p.to_height, kRadius, 30.0, -15.0}; }
-FlightPath reverse_of(const Pair& p) {
+FlightPath path_of(const FlightPair& p) {
+  return {p.from, p.from_height, p.to, p.to_height, kRadius, 30.0, -15.0};
+}
+FlightPath reverse_of(const FlightPair& p) {
   return {p.to, p.to_height, p.from, p.from_height, kRadius, 30.0, -15.0};
 }
 
@@ -75,7 +77,7 @@ TEST(H20, PathsAreFiniteMeetTheirEndsAndMirrorTheirReverse) {
   std::size_t not_finite = 0;
   double end_angle = 0, end_height = 0, mirror_angle = 0, mirror_height = 0;
   for (std::size_t k = 0; k < size; ++k) {
-    const Pair pair = random_pair(random, k);
+    const FlightPair pair = random_pair(random, k);
     const FlightPath path = path_of(pair), reverse = reverse_of(pair);
     for (const double t : {0.0, 1e-9, 0.07, 0.15, 0.31, 0.5, 0.77, 0.93, 1.0 - 1e-9, 1.0}) {
       const PathPoint at = path.at(t);
@@ -121,7 +123,7 @@ TEST(H20, SpeedIsConstantBetweenTheEasedEnds) {
   const std::size_t size = hard::cases(20'000);
   double zoom_only = 0, general = 0;
   for (std::size_t k = 0; k < size; ++k) {
-    Pair pair = random_pair(random, k);
+    FlightPair pair = random_pair(random, k);
     const bool zoom = k % 5 == 2;
     if (zoom && std::abs(std::log(pair.from_height / pair.to_height)) < 0.1) continue;
     const FlightPath path = path_of(pair);

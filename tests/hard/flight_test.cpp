@@ -29,13 +29,13 @@ using globe::geo::Geodetic;
 using globe::planet::Surface;
 using hard::dvec3;
 
-constexpr int kMaxLevel = 26;
+constexpr int kFinestFlown = 26;
 constexpr int kFrames = 200;
 
 double above_ground(const Surface& surface, const Geodetic& place) {
   return globe::clipmap::height_above_ground(Settings::for_detail(64), surface,
                                              globe::geo::ecef_from_geodetic(surface.ellipsoid(), place),
-                                             kMaxLevel, true);
+                                             kFinestFlown, true);
 }
 
 struct Seen {
@@ -62,7 +62,7 @@ void fly(std::shared_ptr<const Surface> surface, std::size_t count, unsigned see
              800.0);
     from.above_ground_m = 2.0 * std::pow(500.0, unit(random));
     to.above_ground_m = 2.0 * std::pow(500.0, unit(random));
-    const Flight flight(Settings::for_detail(64), surface, kMaxLevel, from, to, 0.0, 0.0);
+    const Flight flight(Settings::for_detail(64), surface, kFinestFlown, from, to, 0.0, 0.0);
     const globe::scene::FlightPath path(
         globe::geo::normal_from_degrees(from.place.lat_deg, from.place.lon_deg), from.above_ground_m,
         globe::geo::normal_from_degrees(to.place.lat_deg, to.place.lon_deg), to.above_ground_m,

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/accuracy/vincenty.h"
+#include "globe/base/angles.h"
 #include "globe/geo/ellipsoid.h"
 #include "globe/geo/geodesic.h"
 #include "tests/cli/run_program.h"
@@ -24,14 +25,14 @@
 
 namespace {
 
+using globe::kDegree;
 using globe::geo::Geodetic;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kGeodesicError = 15e-9;  ///< metres; HARD-CASES H9
 constexpr double kSphereError = 5e-9;     ///< metres; HARD-CASES H10
 constexpr double kSphereRadius = 6371008.8;
 
-struct Pair {
+struct GeodesicPair {
   Geodetic a, b;
 };
 
@@ -41,10 +42,10 @@ std::string digits(double value) {
 }
 
 /// What `globe distance` answers to pairs on its standard input: {s12, azi1, azi2} a line.
-std::vector<std::array<double, 3>> ask(const std::vector<Pair>& pairs,
+std::vector<std::array<double, 3>> ask(const std::vector<GeodesicPair>& pairs,
                                        std::vector<std::string> options = {}) {
   std::string lines;
-  for (const Pair& pair : pairs) {
+  for (const GeodesicPair& pair : pairs) {
     lines += digits(pair.a.lat_deg) + ' ' + digits(pair.a.lon_deg) + ' ' + digits(pair.b.lat_deg) + ' ' +
              digits(pair.b.lon_deg) + '\n';
   }
@@ -67,7 +68,7 @@ TEST(HardGeodesic, KarneysTestSetIsAnsweredWithin15Nanometres) {
   constexpr std::size_t kLines = 500, kFirstNearAntipodal = 100, kNearAntipodal = 120;
   const std::filesystem::path path = std::filesystem::path(GLOBE_DATA_DIR) / ".." / "geodtest500.dat";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "TEST SET MISSING: " << path;
-  std::vector<Pair> pairs;
+  std::vector<GeodesicPair> pairs;
   std::vector<std::array<double, 3>> truth;
   std::vector<double> m12;  // what an end moves sideways, a radian of azimuth
   std::ifstream file(path);
@@ -111,7 +112,7 @@ TEST(HardGeodesic, VincentyAgreesWhereItSettles) {
 }
 
 /// On a sphere, from exact degrees: atan2 of sine and cosine in quadruple precision.
-double true_distance(const Pair& pair) {
+double true_distance(const GeodesicPair& pair) {
   const auto vector = [](const Geodetic& at) {
     const auto lat = hard::quad_sine_cosine(at.lat_deg), lon = hard::quad_sine_cosine(at.lon_deg);
     return hard::QuadVector{lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine};
@@ -123,14 +124,14 @@ double true_distance(const Pair& pair) {
   return static_cast<double>(static_cast<long double>(kSphereRadius) * std::atan2(std::sqrt(length), along));
 }
 
-double by_acos(const Pair& pair) {
+double by_acos(const GeodesicPair& pair) {
   const double p = pair.a.lat_deg * kDegree, q = pair.b.lat_deg * kDegree;
   const double lon = (pair.b.lon_deg - pair.a.lon_deg) * kDegree;
   const double cosine = std::sin(p) * std::sin(q) + std::cos(p) * std::cos(q) * std::cos(lon);
   return kSphereRadius * std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
-double by_haversine(const Pair& pair) {
+double by_haversine(const GeodesicPair& pair) {
   const double p = pair.a.lat_deg * kDegree, q = pair.b.lat_deg * kDegree;
   const double s = std::sin((q - p) / 2.0);
   const double t = std::sin((pair.b.lon_deg - pair.a.lon_deg) * kDegree / 2.0);
@@ -139,10 +140,10 @@ double by_haversine(const Pair& pair) {
 
 /// Pairs whose separation, or distance from the antipode, is log-uniform from 0.1 mm to the whole sphere,
 /// poles, the equator and the antimeridian among them.
-std::vector<Pair> pairs_at_every_separation(std::size_t count) {
+std::vector<GeodesicPair> pairs_at_every_separation(std::size_t count) {
   std::mt19937_64 random(1010);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  std::vector<Pair> pairs;
+  std::vector<GeodesicPair> pairs;
   while (pairs.size() < count) {
     Geodetic a{std::asin(unit(random)) / kDegree, 180.0 * unit(random)};
     if (pairs.size() % 10 == 0) a.lat_deg = 0.0;
@@ -160,7 +161,7 @@ std::vector<Pair> pairs_at_every_separation(std::size_t count) {
 }
 
 TEST(HardGeodesic, DistanceOnTheSphereIsRightAtEverySeparation) {
-  const std::vector<Pair> pairs = pairs_at_every_separation(hard::cases(200000));
+  const std::vector<GeodesicPair> pairs = pairs_at_every_separation(hard::cases(200000));
   const auto answers = ask(pairs, {"--ellipsoid", digits(kSphereRadius) + ",0"});
   double worst = 0, worst_acos = 0, worst_haversine = 0, shortest = 1e9, longest = 0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {

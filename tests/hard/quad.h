@@ -7,6 +7,8 @@ namespace hard {
 
 __extension__ using quad = __float128;
 
+inline constexpr double kNanometre = 1e-9;
+
 struct QuadSineCosine {
   quad sine, cosine;
 };

@@ -43,7 +43,7 @@ constexpr double kConeAreaShare = 2e-5;
 constexpr double kBoxAreaShare = 5e-4;  ///< corners count as cut off
 constexpr double kThinAreaShare = 1e-3;
 
-struct Case {
+struct SummaryCase {
   std::string name;
   RegionPointer region;
 };
@@ -71,11 +71,11 @@ globe::htm::Polygon::Ring random_ring(std::mt19937_64& random, const dvec3& cent
   return ring;
 }
 
-Case random_case(std::mt19937_64& random, const Ellipsoid& ellipsoid) {
+SummaryCase random_case(std::mt19937_64& random, const Ellipsoid& ellipsoid) {
   const Geodetic at = random_place(random);
   const dvec3 center = globe::geo::normal_from_degrees(at.lat_deg, at.lon_deg);
   const double size = std::exp2(-std::uniform_real_distribution<double>(0, 9)(random));  // radians
-  Case one;
+  SummaryCase one;
   switch (random() % 5) {
     case 0:
       one = {"cone", std::make_shared<globe::htm::Cone>(center, size * 180 / M_PI)};
@@ -198,7 +198,7 @@ TEST_F(HardSummary, OfRandomRegionsIsThatOfTheirNodes) {
       const std::string name = std::to_string(level) + (ties ? "ties" : "");
       const Tried all(planet(name, level, ellipsoid, ties ? tests::HeightOfNode(steps) : rough), level);
       for (std::size_t k = 0; k < count / 10; ++k) {
-        const Case one = random_case(random, ellipsoid);
+        const SummaryCase one = random_case(random, ellipsoid);
         const auto seen = summarize(*all.surface, *one.region, level);
         const Truth truth = truth_of(all, *one.region);
         const bool right = seen ? agrees(*seen, truth) : truth.samples == 0;
@@ -236,7 +236,7 @@ TEST_F(HardSummary, WithAndWithoutPyramidsIsTheSame) {
   const SurfacePointer without = tests::open_surface(folder_ / "without");
   double worst = 0;
   for (std::size_t k = 0; k < hard::cases(1000); ++k) {
-    const Case one = random_case(random, globe::geo::kMars);
+    const SummaryCase one = random_case(random, globe::geo::kMars);
     const auto a = summarize(*with, *one.region, 6);
     const auto b = summarize(*without, *one.region, 6);
     ASSERT_EQ(a.has_value(), b.has_value()) << one.name;
@@ -339,7 +339,7 @@ TEST_F(HardSummary, OfTheBuiltInPlanetIsThatOfItsNodes) {
   const SurfacePointer builtin = Surface::builtin(2);
   const Tried all(builtin, 6);
   for (std::size_t k = 0; k < hard::cases(100); ++k) {
-    const Case one = random_case(random, builtin->ellipsoid());
+    const SummaryCase one = random_case(random, builtin->ellipsoid());
     const auto seen = summarize(*builtin, *one.region, 6);
     const Truth truth = truth_of(all, *one.region);
     EXPECT_TRUE(seen ? agrees(*seen, truth) : truth.samples == 0) << one.name;

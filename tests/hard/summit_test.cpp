@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "converters/convert.h"
+#include "globe/base/angles.h"
 #include "globe/planet/dataset.h"
 #include "globe/planet/grid.h"
 #include "tests/hard/table.h"
@@ -20,11 +20,10 @@
 
 namespace {
 
+using globe::kDegree;
 using globe::geo::Geodetic;
 using globe::planet::Dataset;
 using globe::planet::Node;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct Box {
   double west, south, east, north;
@@ -39,7 +38,7 @@ struct Summit {
   double height_m = -1e30;
 };
 
-struct Case {
+struct SummitCase {
   const char* name;
   const char* map;
   globe::geo::Ellipsoid ellipsoid;
@@ -55,14 +54,14 @@ struct Case {
 constexpr Box kHimalaya{70, 25, 100, 38};
 constexpr Box kEverything{-180, -90, 180, 90};
 constexpr const char* kEarthMap = "earth/earth_etopo20_f32.tif";
-const std::vector<Case> kCases{
+const std::vector<SummitCase> kCases{
     {"Himalaya, nearest", kEarthMap, globe::geo::kWgs84, kHimalaya, -180, converters::Filter::kNearest, 9},
     {"Himalaya, bilinear", kEarthMap, globe::geo::kWgs84, kHimalaya, -180, converters::Filter::kBilinear, 10},
     {"Moon, bilinear", "moon/moon_gld100_12.8ppd_int16.tif", globe::geo::kMoon, kEverything, 0,
      converters::Filter::kBilinear, 11}};
 
 /// The highest pixel of a map of the whole planet, pixels areas; its step in degrees.
-Summit highest_pixel(const std::filesystem::path& map, const Case& one, double& step_deg) {
+Summit highest_pixel(const std::filesystem::path& map, const SummitCase& one, double& step_deg) {
   const auto input = OIIO::ImageInput::open(map.string());
   const int width = input->spec().width;
   const int height = input->spec().height;
@@ -126,7 +125,7 @@ double degrees_between(const Geodetic& a, const Geodetic& b) {
 }
 
 TEST(HardSummit, HighestNodeLiesWithinOnePixelOfTheHighestPixel) {
-  for (const Case& one : kCases) {
+  for (const SummitCase& one : kCases) {
     const std::filesystem::path map = std::filesystem::path(GLOBE_DATA_DIR) / one.map;
     if (!std::filesystem::exists(map)) GTEST_SKIP() << "SAMPLE MAP MISSING: " << map;
     const tests::TemporaryFolder folder;

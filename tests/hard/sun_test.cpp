@@ -1,13 +1,13 @@
 // H21: the sun's place, against a formula of another make.
 
 #include "globe/geo/sun.h"
+#include "globe/base/angles.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <random>
 
 #include "globe/geo/ellipsoid.h"
@@ -15,9 +15,10 @@
 
 namespace {
 
+using globe::kDegree;
+
 using glm::dvec3;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSunError = 0.01;  ///< degrees; HARD-CASES H21
 
 /// Days from 2000-01-01T12:00 to a UTC date of the Gregorian calendar (Fliegel and Van Flandern 1968).

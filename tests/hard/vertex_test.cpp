@@ -11,6 +11,7 @@
 #include "globe/geo/ellipsoid.h"
 #include "globe/htm/midpoint.h"
 #include "globe/htm/trixel.h"
+#include "tests/hard/quad.h"
 #include "tests/hard/table.h"
 
 namespace {
@@ -19,17 +20,11 @@ using globe::htm::Corners;
 using globe::htm::kMaxLevel;
 using globe::htm::Trixel;
 using hard::cases;
+using hard::kNanometre;
+using hard::quad;
+using hard::square_root;
 
-__extension__ using quad = __float128;
-
-constexpr double kNanometre = 1e-9;
 constexpr double kVertexError = 10 * kNanometre;
-
-quad square_root(quad x) {
-  quad root = std::sqrt(static_cast<double>(x));
-  for (int step = 0; step < 2; ++step) root = (root + x / root) / 2;  // 53 bits, 106, all
-  return root;
-}
 
 template <typename T>
 T square_root(T x) {

@@ -17,13 +17,12 @@
 #include <numbers>
 #include <string>
 
+#include "globe/base/angles.h"
 #include "globe/planet/scenic.h"
 #include "sampler.h"
 
 namespace globe::preview {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct Image {
   int width, height;

@@ -29,6 +29,11 @@ class GlEnvironment : public testing::Environment {
 inline GlEnvironment* const gl_environment =
     static_cast<GlEnvironment*>(testing::AddGlobalTestEnvironment(new GlEnvironment));
 
+/// For those who ask for a share of the context.
+inline std::shared_ptr<globe::gl::Context> lent(globe::gl::Context& context) {
+  return {&context, [](globe::gl::Context*) {}};
+}
+
 /// True when EGL offers no display of any kind: there is nothing to test on. A display without a usable
 /// context is a failure, not an absence.
 inline bool egl_is_absent() {
@@ -49,8 +54,8 @@ class GlTest : public testing::Test {
     if (egl_is_absent()) GTEST_SKIP() << "NOTHING WAS TESTED: EGL offers no display here";
     context().clear_errors();
     // Whatever the test before left.
-    for (const GLenum switched : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND, GL_POLYGON_OFFSET_LINE})
-      glDisable(switched);
+    for (const auto switched : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND, GL_POLYGON_OFFSET_LINE})
+      glDisable(static_cast<GLenum>(switched));
     glDepthMask(GL_TRUE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }

@@ -9,16 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "tests/temporary_folder.h"
+
 // What the compiler does not see: which way the includes point, and how the vertex shader is written.
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::vector<std::string> matches(const std::string& text, const std::string& pattern) {
   std::vector<std::string> found;
@@ -94,7 +91,7 @@ TEST(Structure, NoIncludePointsBack) {
       if (extension != ".h" && extension != ".cpp") continue;
       ++files;
       for (const std::string& line :
-           wrong_includes(fs::relative(entry.path(), GLOBE_SOURCE_DIR), text_of(entry.path())))
+           wrong_includes(fs::relative(entry.path(), GLOBE_SOURCE_DIR), tests::bytes_of(entry.path())))
         ADD_FAILURE() << line;
     }
   }
@@ -138,13 +135,13 @@ std::vector<std::string> imprecisions(const std::string& shader) {
 }
 
 TEST(ClipmapShader, EveryStepToThePositionIsPrecise) {
-  const std::string shader = text_of(fs::path(GLOBE_SOURCE_DIR) / "shaders/clipmap.vert");
+  const std::string shader = tests::bytes_of(fs::path(GLOBE_SOURCE_DIR) / "shaders/clipmap.vert");
   for (const std::string& line : imprecisions(shader)) ADD_FAILURE() << line;
   EXPECT_GE(matches(shader, R"re((\bposition\s*\+?=)re" + std::string(")")).size(), 3u);
 }
 
 TEST(ClipmapShader, ImpreciseStepsAreFound) {
-  const std::string shader = text_of(fs::path(GLOBE_SOURCE_DIR) / "shaders/clipmap.vert");
+  const std::string shader = tests::bytes_of(fs::path(GLOBE_SOURCE_DIR) / "shaders/clipmap.vert");
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string changed = shader;
     const std::size_t at = changed.find(from);
@@ -162,11 +159,11 @@ TEST(ClipmapShader, ImpreciseStepsAreFound) {
 /// The same of local regions, whose patches meet as two computations of one vertex (flat/patch_mesh.h).
 TEST(GeomipmapShader, EveryStepToThePositionIsPrecise) {
   const fs::path folder = fs::path(GLOBE_SOURCE_DIR) / "shaders/flat";
-  const std::string shader = text_of(folder / "geomipmap.vert");
+  const std::string shader = tests::bytes_of(folder / "geomipmap.vert");
   EXPECT_NE(shader.find("invariant gl_Position;"), std::string::npos);
   EXPECT_EQ(matches(shader, R"re((precise (?:float z|vec3 local|vec3 position|vec4 clip)) =)re").size(), 4u);
   EXPECT_EQ(matches(shader, R"re(gl_Position\s*=\s*([^;]+);)re"), std::vector<std::string>{"clip"});
-  const std::string morph = text_of(folder / "geomorph.glsl");
+  const std::string morph = tests::bytes_of(folder / "geomorph.glsl");
   EXPECT_EQ(matches(morph, R"re(\n  (precise )(?:float|vec4) \w+ =)re").size(), 3u);
   EXPECT_EQ(matches(morph, R"re(\n  ((?:float|vec4) \w+ =))re").size(), 0u);
 }

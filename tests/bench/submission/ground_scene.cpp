@@ -32,8 +32,7 @@ GroundScene::GroundScene(int detail, double above_m, double pitch_deg)
   textures.apply(std::move(update));
   const render::Camera camera =
       render::make_camera(surface->ellipsoid(), place, scenic.heading_deg, pitch_deg, 60.0, 1280.0 / 720.0);
-  list = render::make_draw_list(settings, *state, textures, surface->ellipsoid(), camera, finest.level,
-                                finest.fade, true);
+  list = render::make_draw_list(settings, *state, textures, surface->ellipsoid(), camera, finest, true);
   const render::ViewBlock block =
       render::view_block(camera, *surface, sun, render::near_distance(surface->ellipsoid(), above_m));
   view = globe::gl::Buffer(sizeof block, &block);

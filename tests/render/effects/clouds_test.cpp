@@ -14,17 +14,17 @@ using globe::render::Camera;
 using globe::render::GlobeRenderer;
 
 constexpr int kSize = 384;
-constexpr int kMapWidth = 720;  // half degrees
+constexpr int kCloudMapWidth = 720;  // half degrees
 /// Of the one cloud: the corner of sixteen white pixels, tenths of degrees.
-constexpr double kLat = 5.0, kLon = 20.0;
+constexpr double kCloudLat = 5.0, kCloudLon = 20.0;
 
 class Clouds : public GlTest {
  protected:
   std::string table(const std::string& keys) const {
     std::vector<std::pair<int, int>> white;
     for (int k = 0; k < 16; ++k)
-      white.emplace_back(static_cast<int>((kLon + 180.0) * 10.0) - 2 + k % 4,
-                         static_cast<int>((90.0 - kLat) * 10.0) - 2 + k / 4);
+      white.emplace_back(static_cast<int>((kCloudLon + 180.0) * 10.0) - 2 + k % 4,
+                         static_cast<int>((90.0 - kCloudLat) * 10.0) - 2 + k / 4);
     const auto file = effect_scene::write_map(folder_.path() / "cloud.png", 3600, white);
     return "[effects.clouds]\nimage = \"" + file.string() + "\"\n" + keys;
   }
@@ -52,7 +52,7 @@ TEST_F(Clouds, MoveEastwardAtTheirSpeed) {
     const auto cloudy = effect_scene::picture(with, camera, sun, kSize, kSize, time_s);
     const double moved_deg = kSpeed * time_s / kWgs84.a * 180.0 / std::numbers::pi;
     const glm::dvec2 expected =
-        pixel_of(camera, ecef_from_geodetic(kWgs84, {kLat, kLon + moved_deg, kAltitude}));
+        pixel_of(camera, ecef_from_geodetic(kWgs84, {kCloudLat, kCloudLon + moved_deg, kAltitude}));
     const glm::dvec2 seen = effect_scene::middle_of_difference(cloudy, clear, kSize, kSize);
     EXPECT_NEAR(seen.x, expected.x, 1.0) << time_s;
     EXPECT_NEAR(seen.y, expected.y, 1.0) << time_s;
@@ -74,12 +74,12 @@ TEST_F(Clouds, CastTheirShadowsAwayFromTheSun) {
   constexpr double kAltitude = 80e3;
   GlobeRenderer lit = effect_scene::renderer(table("speed = 0\naltitude = 80000\nshadows = false\n"));
   GlobeRenderer shaded = effect_scene::renderer(table("speed = 0\naltitude = 80000\n"));
-  const Camera camera = above(kLat, kLon, 1500e3);
-  const glm::dvec3 sun = globe::geo::normal_from_degrees(20.0, kLon + 50.0);
+  const Camera camera = above(kCloudLat, kCloudLon, 1500e3);
+  const glm::dvec3 sun = globe::geo::normal_from_degrees(20.0, kCloudLon + 50.0);
   const auto bright = effect_scene::picture(lit, camera, sun, kSize, kSize);
   const auto dark = effect_scene::picture(shaded, camera, sun, kSize, kSize);
   // Where the ray through the cloud meets the ground, by halving.
-  const glm::dvec3 cloud = ecef_from_geodetic(kWgs84, {kLat, kLon, kAltitude});
+  const glm::dvec3 cloud = ecef_from_geodetic(kWgs84, {kCloudLat, kCloudLon, kAltitude});
   double low = 0.0, high = 3.0 * kAltitude;
   for (int k = 0; k < 60; ++k) {
     const double middle = 0.5 * (low + high);
@@ -115,7 +115,7 @@ class NightLights : public GlTest {
 class Lightmap : public NightLights {};
 
 TEST_F(NightLights, ShineWhereTheMapHasThemAtNightAlone) {
-  const auto file = effect_scene::write_map(folder_.path() / "lamps.png", kMapWidth, {{410, 160}});
+  const auto file = effect_scene::write_map(folder_.path() / "lamps.png", kCloudMapWidth, {{410, 160}});
   const Geodetic town{90.0 - 160.5 / 2.0, 410.5 / 2.0 - 180.0, 0.0};
   const std::string table = "[effects.night_lights]\nimage = \"" + file.string() + "\"\n";
   GlobeRenderer with = effect_scene::renderer(table);

@@ -107,7 +107,7 @@ class CallCount {
 };
 CallCount* CallCount::current = nullptr;
 
-constexpr int kWidth = 96, kHeight = 54;
+constexpr int kCalledWidth = 96, kCalledHeight = 54;
 
 std::vector<NamedEffect> effects_of(const std::string& text) {
   return globe::effects::make_effects(
@@ -128,7 +128,7 @@ struct Seen {
 
 /// Two frames over land by day at a height, looking along a pitch away from the sun.
 Seen seen(const std::string& scene, double above_m, double pitch_deg, double heading_deg = 270.0) {
-  const globe::gl::Framebuffer target(kWidth, kHeight);
+  const globe::gl::Framebuffer target(kCalledWidth, kCalledHeight);
   GlobeRenderer renderer(views::builtin_planet(), small_settings(), effects_of(scene));
   const auto camera = views::camera_above(renderer, *views::builtin_planet(), {"land", -43.42, -106.43},
                                           above_m, heading_deg, pitch_deg);
@@ -209,7 +209,7 @@ TEST_F(OnlyWhatIsCalledFor, AProgramForASetOfEffectsHasNothingOfTheOthers) {
 }
 
 TEST_F(OnlyWhatIsCalledFor, FramesInRealTimeDrawWhatWholeFramesDo) {
-  const globe::gl::Framebuffer target(kWidth, kHeight);
+  const globe::gl::Framebuffer target(kCalledWidth, kCalledHeight);
   const std::string scene = "[effects.fog]\nbase = \"2 km\"\n[effects.clouds]\naltitude = \"12 km\"\n";
   const Seen whole = seen(scene, 300.0, -20.0);
   GlobeRenderer renderer(views::builtin_planet(), small_settings(), effects_of(scene));
@@ -240,7 +240,7 @@ TEST_F(OnlyWhatIsCalledFor, APictureDrawnAsLightIsThePictureWithinAStepOfItsByte
 
 TEST_F(OnlyWhatIsCalledFor, ASunBehindAMountainMakesNoFlare) {
   // Looking down at the ground straight below the sun: its place in the picture is ground.
-  const auto target = globe::gl::Framebuffer(kWidth, kHeight);
+  const auto target = globe::gl::Framebuffer(kCalledWidth, kCalledHeight);
   const auto surface = views::builtin_planet();
   const auto picture = [&](const std::string& scene) {
     GlobeRenderer renderer(surface, small_settings(), effects_of(scene));

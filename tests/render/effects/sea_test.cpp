@@ -17,8 +17,8 @@ using views::dvec3;
 using views::GlobeRenderer;
 using views::Surface;
 
-constexpr int kWidth = 192;
-constexpr int kHeight = 108;
+constexpr int kSeaWidth = 192;
+constexpr int kSeaHeight = 108;
 
 std::shared_ptr<const Surface> bare_planet() {
   static const std::shared_ptr<const Surface> planet =
@@ -35,13 +35,13 @@ GlobeRenderer renderer_with(const std::string& effects) {
 }
 
 /// An island with a coast on all sides.
-constexpr double kLat = -42.93, kLon = -109.31;
+constexpr double kSeaLat = -42.93, kSeaLon = -109.31;
 /// Far from any.
 constexpr double kOffLat = -43.3, kOffLon = -110.6;
 
 Camera camera_at(double lat_deg, double lon_deg, double h_m, double pitch_deg) {
   return globe::render::make_camera(globe::geo::kWgs84, {lat_deg, lon_deg, h_m}, 70.0, pitch_deg, 50.0,
-                                    static_cast<double>(kWidth) / kHeight);
+                                    static_cast<double>(kSeaWidth) / kSeaHeight);
 }
 
 dvec3 morning(const Camera& camera) {
@@ -57,7 +57,7 @@ std::vector<std::uint8_t> picture(GlobeRenderer& renderer, const Camera& camera,
 }
 
 TEST_F(GlTest, TheSeaAfterTwoSecondsIsTheSameAtTenAndAtSixtyFramesASecond) {
-  const Framebuffer target(kWidth, kHeight, {});
+  const Framebuffer target(kSeaWidth, kSeaHeight, {});
   const Camera camera = camera_at(kOffLat, kOffLon, 12.0, -8.0);
   std::vector<std::vector<std::uint8_t>> ends;
   for (const int fps : {10, 60, 0}) {
@@ -75,7 +75,7 @@ TEST_F(GlTest, TheSeaAfterTwoSecondsIsTheSameAtTenAndAtSixtyFramesASecond) {
 }
 
 TEST_F(GlTest, InlandTheSeaHasNothingToDo) {
-  const Framebuffer target(kWidth, kHeight, {});
+  const Framebuffer target(kSeaWidth, kSeaHeight, {});
   GlobeRenderer renderer = renderer_with("[effects.sea]\n");
   const Camera camera = camera_at(-43.42, -106.43, 3000.0, -90.0);
   picture(renderer, camera, 0.0, target);
@@ -84,7 +84,7 @@ TEST_F(GlTest, InlandTheSeaHasNothingToDo) {
 }
 
 TEST_F(GlTest, UnderWaterThePictureIsTheWaters) {
-  const Framebuffer target(kWidth, kHeight, {});
+  const Framebuffer target(kSeaWidth, kSeaHeight, {});
   GlobeRenderer renderer = renderer_with("[effects.sea]\n[effects.underwater]\nvisibility = 5\n");
   const std::vector<std::uint8_t> deep =
       picture(renderer, camera_at(kOffLat, kOffLon, -8.0, 0.0), 0.0, target);
@@ -95,35 +95,36 @@ TEST_F(GlTest, UnderWaterThePictureIsTheWaters) {
   EXPECT_GT(blue, deep.size() / 4 * 95 / 100);
   const std::vector<std::uint8_t> deeper =
       picture(renderer, camera_at(kOffLat, kOffLon, -25.0, 0.0), 0.0, target);
-  const auto middle = static_cast<std::size_t>((kHeight / 2 * kWidth + kWidth / 2) * 4 + 1);
+  const auto middle = static_cast<std::size_t>((kSeaHeight / 2 * kSeaWidth + kSeaWidth / 2) * 4 + 1);
   EXPECT_LT(deeper[middle], deep[middle]) << "light does not fall with depth";
 }
 
 /// The sea as murk of one colour over a flat sea: what shows it, and where the heights say it is.
 TEST_F(GlTest, TheCoastIsWhereHeightsAreZero) {
-  const Framebuffer target(kWidth, kHeight, {});
+  const Framebuffer target(kSeaWidth, kSeaHeight, {});
   GlobeRenderer renderer =
       renderer_with("[effects.sea]\nwind_speed = 0\ncolor = \"ff00ff\"\nclarity = 0.1\nfoam = false\n");
   std::size_t pixels = 0, wrong = 0, far = 0;
   for (const double h : {1500.0, 6000.0, 25000.0}) {
-    const Camera camera = camera_at(kLat, kLon, h, -90.0);
+    const Camera camera = camera_at(kSeaLat, kSeaLon, h, -90.0);
     const std::vector<std::uint8_t> seen = picture(renderer, camera, 0.0, target);
     const int level = renderer.frame_stats().finest_level;
-    std::vector<bool> wet(static_cast<std::size_t>(kWidth * kHeight)), drawn(wet.size());
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
-        const dvec3 ray = views::ray(camera, (2.0 * x + 1.0) / kWidth - 1.0, 1.0 - (2.0 * y + 1.0) / kHeight);
+    std::vector<bool> wet(static_cast<std::size_t>(kSeaWidth * kSeaHeight)), drawn(wet.size());
+    for (int y = 0; y < kSeaHeight; ++y) {
+      for (int x = 0; x < kSeaWidth; ++x) {
+        const dvec3 ray =
+            views::ray(camera, (2.0 * x + 1.0) / kSeaWidth - 1.0, 1.0 - (2.0 * y + 1.0) / kSeaHeight);
         const double away = globe::geo::ray_ellipsoid(globe::geo::kWgs84, 0.0, camera.position, ray);
         const auto place = globe::geo::geodetic_from_ecef(globe::geo::kWgs84, camera.position + ray * away);
-        const std::size_t k = static_cast<std::size_t>(y * kWidth + x);
+        const std::size_t k = static_cast<std::size_t>(y * kSeaWidth + x);
         wet[k] =
             bare_planet()->height(globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg), level) < 0.0;
         drawn[k] = seen[4 * k] > seen[4 * k + 1] + 40 && seen[4 * k + 2] > seen[4 * k + 1] + 40;
       }
     }
-    for (int y = 2; y < kHeight - 2; ++y) {
-      for (int x = 2; x < kWidth - 2; ++x) {
-        const std::size_t k = static_cast<std::size_t>(y * kWidth + x);
+    for (int y = 2; y < kSeaHeight - 2; ++y) {
+      for (int x = 2; x < kSeaWidth - 2; ++x) {
+        const std::size_t k = static_cast<std::size_t>(y * kSeaWidth + x);
         ++pixels;
         if (wet[k] == drawn[k]) continue;
         ++wrong;
@@ -131,7 +132,8 @@ TEST_F(GlTest, TheCoastIsWhereHeightsAreZero) {
         for (int dy = -1; dy <= 1; ++dy) {
           for (int dx = -1; dx <= 1; ++dx)
             near = near ||
-                   wet[k + static_cast<std::size_t>(dy * kWidth + dx + 2 * kWidth) - 2 * kWidth] != wet[k];
+                   wet[k + static_cast<std::size_t>(dy * kSeaWidth + dx + 2 * kSeaWidth) - 2 * kSeaWidth] !=
+                       wet[k];
         }
         far += near ? 0 : 1;
       }
@@ -164,7 +166,7 @@ TEST_F(GlTest, TheMeshOfTheSeaIsClosedAndStandsAtTheWavesHeights) {
   const globe::effects::Sea sea(globe::geo::kWgs84, {kOffLat, kOffLon, 0.0},
                                 globe::effects::wind_waves(15.0, 250.0));
   std::size_t open = 0, edges = 0, raised = 0;
-  for (const auto& [lat, lon] : {std::pair{kLat, kLon}, std::pair{kOffLat, kOffLon}}) {
+  for (const auto& [lat, lon] : {std::pair{kSeaLat, kSeaLon}, std::pair{kOffLat, kOffLon}}) {
     for (const double h : {9.0, 60.0, 2000.0}) {
       const Camera camera = camera_at(lat, lon, h, -20.0);
       SeaBlock block;

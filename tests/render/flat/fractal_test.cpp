@@ -106,6 +106,37 @@ TEST_F(FractalDrawer, TheSamePlaceLooksTheSameWhicheverWayOneCame) {
   EXPECT_TRUE(picture == target.read_rgba8());
 }
 
+/// HARD-CASES H17 for endless ground: the frames before and after blocks are paged differ by nothing to be
+/// seen, and without morphing they do.
+TEST_F(FractalDrawer, PagingShowsNoPop) {
+  const auto worst_change = [&](bool morph) {
+    TerrainSettings ground = settings();
+    ground.rings = {4, 9};
+    ground.morph = morph;
+    ground.ground.roughness = 0.5;
+    Terrain terrain(ground);
+    Drawer drawer(terrain);
+    const gl::Framebuffer target(320, 240);
+    terrain.move_to({0.0, 0.0});
+    const double border = 8.0 * 0.625;  // of the box about the middle, posts
+    const double up = terrain.height_m({0.0, 0.0}) + 0.15 * side_m(ground);
+    std::vector<std::uint8_t> before;
+    int worst = 0;
+    for (const double x : {border - 1e-4, border + 1e-4}) {
+      drawer.draw(flat_camera(90.0, -45.0, 50.0, 4.0 / 3.0), {x, 0.0, up}, 1.0, target);
+      const std::vector<std::uint8_t> picture = target.read_rgba8();
+      for (std::size_t k = 0; k < before.size(); ++k)
+        worst = std::max(worst, std::abs(int{picture[k]} - int{before[k]}));
+      before = picture;
+    }
+    EXPECT_EQ(terrain.pager().middle().x, 1);
+    return worst;
+  };
+  const int off = worst_change(false), on = worst_change(true);
+  EXPECT_GT(off, 3 * on) << on;
+  EXPECT_LT(on, 12);
+}
+
 TEST(FractalLowFlight, KeepsItsClearance) {
   Settings ground;
   ground.iterations = 9;

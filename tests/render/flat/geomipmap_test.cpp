@@ -12,6 +12,7 @@
 #include "globe/clipmap/ray.h"
 #include "globe/geo/sun.h"
 #include "globe/render/globe_renderer.h"
+#include "tests/hard/table.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/unit/flat/rough_ground.h"
 
@@ -22,7 +23,7 @@ namespace geo = globe::geo;
 namespace render = globe::render;
 using globe::gl::Framebuffer;
 
-constexpr int kWidth = 320, kHeight = 180;
+constexpr int kFlatWidth = 320, kFlatHeight = 180;
 constexpr glm::vec3 kMagenta(1.0f, 0.0f, 1.0f);
 
 GeomipmapSettings plain() {
@@ -41,7 +42,7 @@ render::Camera camera_over(const Terrain& terrain, double x, double y, double ab
                            double pitch) {
   const geo::Geodetic place = terrain.frame().geodetic_from_local({x, y, terrain.z_at(x, y) + above});
   return render::make_camera(terrain.frame().ellipsoid(), place, heading, pitch, 60.0,
-                             static_cast<double>(kWidth) / kHeight);
+                             static_cast<double>(kFlatWidth) / kFlatHeight);
 }
 
 std::vector<render::Camera> tour(const Terrain& terrain, int count, unsigned seed) {
@@ -49,6 +50,7 @@ std::vector<render::Camera> tour(const Terrain& terrain, int count, unsigned see
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const double half = 0.4 * (terrain.posts().columns - 1) * terrain.spacing_m();
   std::vector<render::Camera> cameras;
+  cameras.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k)
     cameras.push_back(camera_over(terrain, half * (2 * share(random) - 1), half * (2 * share(random) - 1),
                                   2.0 * std::pow(500.0, share(random)), 360 * share(random),
@@ -61,7 +63,7 @@ const glm::dvec3 kMorning(geo::morning_sun(-122.19));
 class Geomipmap : public GlTest {
  protected:
   std::vector<std::uint8_t> picture(GeomipmapRenderer& renderer, const render::Camera& camera) {
-    const Framebuffer frame(kWidth, kHeight);
+    const Framebuffer frame(kFlatWidth, kFlatHeight);
     renderer.draw(camera, kMorning, true, frame);
     return frame.read_rgba8();
   }
@@ -98,7 +100,7 @@ TEST_F(Geomipmap, ThePictureIsThatOfTheMeshInDoublePrecision) {
   GeomipmapSettings settings = plain();
   settings.lod = false;
   GeomipmapRenderer renderer = renderer_of(terrain, settings);
-  const Framebuffer frame(kWidth, kHeight);
+  const Framebuffer frame(kFlatWidth, kFlatHeight);
   std::mt19937 random(2);
   int on_ground = 0, wrong = 0;
   for (const render::Camera& camera : tour(*terrain, 8, 1)) {
@@ -107,10 +109,11 @@ TEST_F(Geomipmap, ThePictureIsThatOfTheMeshInDoublePrecision) {
     const double near_m = render::near_distance(geo::kWgs84, renderer.nearest_drawn(camera.position));
     const glm::dvec3 eye = terrain->frame().local_from_ecef(camera.position);
     for (int k = 0; k < 40; ++k) {
-      const int x = static_cast<int>(random() % kWidth), y = static_cast<int>(random() % kHeight);
-      const glm::dvec3 along = render::direction_through(camera, (x + 0.5) / kWidth, (y + 0.5) / kHeight);
+      const int x = static_cast<int>(random() % kFlatWidth), y = static_cast<int>(random() % kFlatHeight);
+      const glm::dvec3 along =
+          render::direction_through(camera, (x + 0.5) / kFlatWidth, (y + 0.5) / kFlatHeight);
       const auto hit = first_hit(*terrain, eye, along * terrain->frame().axes());
-      const auto shown = static_cast<double>(depth[static_cast<std::size_t>(y * kWidth + x)]);
+      const auto shown = static_cast<double>(depth[static_cast<std::size_t>(y * kFlatWidth + x)]);
       if (!hit || shown == 0.0) {
         wrong += hit.has_value() != (shown != 0.0) ? 1 : 0;
         continue;
@@ -152,7 +155,7 @@ TEST_F(Geomipmap, NoBackgroundLeaksBetweenPatchesOfAnyLevels) {
     GeomipmapRenderer renderer = renderer_of(terrain, settings);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> share(-1.0, 1.0);
-    for (int k = 0; k < 20; ++k) {
+    for (int k = 0; k < (hard::full() ? 350 : 20); ++k) {
       const render::Camera camera =
           camera_over(*terrain, 900 * share(random), 900 * share(random),
                       30.0 + 400.0 * std::abs(share(random)), 180 * share(random), -90);
@@ -232,7 +235,7 @@ TEST_F(Geomipmap, ARegionShowsTheGroundThatTheGlobeShowsAtTheSamePixel) {
     of_globe.max_level = kLevel;
     render::GlobeRenderer globe(surface, of_globe);
     const render::Camera camera = camera_over(*terrain, 0, 0, 20'000.0, 40.0, -70.0);
-    const Framebuffer frame_a(kWidth, kHeight), frame_b(kWidth, kHeight);
+    const Framebuffer frame_a(kFlatWidth, kFlatHeight), frame_b(kFlatWidth, kFlatHeight);
     region.draw(camera, kMorning, true, frame_a);
     globe.draw(camera, kMorning, true, frame_b);
     const auto depth_a = frame_a.read_depth(), depth_b = frame_b.read_depth();

@@ -9,11 +9,11 @@
 
 namespace {
 
-namespace shader {
+namespace clipmap_shader {
 using namespace glm;
 #include "shaders/lib/clipmap.glsl"
 [[maybe_unused]] const auto kUnused = std::make_tuple(&exact_mix, &torus_texel, &brick_texel);
-}  // namespace shader
+}  // namespace clipmap_shader
 
 namespace geo = globe::geo;
 using globe::clipmap::LevelData;
@@ -60,11 +60,11 @@ void for_each_patch(const app::accuracy::MeshProbe& probe, const DrawList& list,
 
 float morph_of(const DrawnPatch& patch, const glm::ivec2& node, const globe::clipmap::MorphBand& band) {
   const glm::ivec2 p = node * 1024;
-  const auto from = [&](int x, int y) { return shader::hex_length(p - glm::ivec2(x, y)); };
+  const auto from = [&](int x, int y) { return clipmap_shader::hex_length(p - glm::ivec2(x, y)); };
   const SlotBlock& s = patch.slot;
   const int distance = std::min(std::min(from(s.images_a.x, s.images_a.y), from(s.images_a.z, s.images_a.w)),
                                 std::min(from(s.images_b.x, s.images_b.y), from(s.images_b.z, s.images_b.w)));
-  return std::max(shader::morph_factor(distance, band.begin, band.end), s.offset.w);
+  return std::max(clipmap_shader::morph_factor(distance, band.begin, band.end), s.offset.w);
 }
 
 std::vector<Camera> cameras(const views::GlobeRenderer& renderer) {
@@ -92,7 +92,7 @@ TEST_F(GlTest, PatchesShowOneLevelWhereNoVertexCallsForTwo) {
     for (const float fade : {0.0f, 0.4f, 0.6f, 0.8f}) {
       const DrawList list =
           globe::render::make_draw_list(settings, probe.state(), probe.textures(), surface->ellipsoid(),
-                                        camera, probe.state().target.finest, fade, false);
+                                        camera, {probe.state().target.finest, fade}, false);
       for_each_patch(probe, list, [&](const DrawnPatch& patch) {
         if (patch.data.region.level == settings.base_level || patch.batch.look.shading == Shading::kGlint)
           return;
@@ -101,8 +101,8 @@ TEST_F(GlTest, PatchesShowOneLevelWhereNoVertexCallsForTwo) {
           for (int a = 0; a + b <= settings.m; ++a) {
             const float alpha = morph_of(patch, patch.node(a, b), band);
             morph = std::max(morph, alpha);
-            least = std::min(least, shader::shading_share(alpha));
-            most = std::max(most, shader::shading_share(alpha));
+            least = std::min(least, clipmap_shader::shading_share(alpha));
+            most = std::max(most, clipmap_shader::shading_share(alpha));
           }
         }
         const auto [kind, shading] = patch.batch.look;
@@ -141,7 +141,7 @@ TEST_F(GlTest, TheSunGlintsOnlyInPatchesDrawnForIt) {
     probe.load(camera.position, settings.base_level + 8, {sun, false});
     const DrawList list =
         globe::render::make_draw_list(settings, probe.state(), probe.textures(), surface->ellipsoid(), camera,
-                                      probe.state().target.finest, 0.0f, false);
+                                      {probe.state().target.finest, 0.0f}, false);
     for_each_patch(probe, list, [&](const DrawnPatch& patch) {
       ++all;
       const bool for_glint = patch.batch.look.shading == Shading::kGlint;

@@ -17,10 +17,6 @@ using accuracy::Yardstick;
 using views::dvec3;
 
 /// A context of their own would leave the tests' one without its thread: theirs is lent.
-std::shared_ptr<globe::gl::Context> lent(globe::gl::Context& context) {
-  return {&context, [](globe::gl::Context*) {}};
-}
-
 TEST_F(GlTest, PlanesAsFarApartAsReportedAndRoundedAgainAreToldApartAndAThirdOfItNotAlways) {
   for (const DepthScheme scheme : accuracy::kDepthSchemes) {
     const accuracy::DepthPlanes planes(lent(context()), scheme, 16, 16);

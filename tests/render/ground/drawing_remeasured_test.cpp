@@ -38,11 +38,6 @@ accuracy::Scope scope_in(globe::gl::Context& context) {
   return {false, {&context, [](globe::gl::Context*) {}}, views::builtin_planet()};
 }
 
-void expect_agreement(const accuracy::ErrorFigure& reported, const Second& second, const std::string& name) {
-  EXPECT_NEAR(reported.max / static_cast<double>(second.max()), 1.0, 0.05) << name;
-  EXPECT_NEAR(reported.rms / static_cast<double>(second.rms()), 1.0, 0.05) << name;
-}
-
 /// The triangles that the GPU makes of the whole ground, from the camera.
 struct Mesh {
   std::vector<accuracy::ProbeVertex> corners;
@@ -266,8 +261,9 @@ TEST_F(GlTest, ChordsAndParabolasErrByWhatTheirFormulasSay) {
 Long share_of_pixel(const accuracy::Edge& edge, int x, int y) {
   const Long a = std::abs(Long(edge.normal.x)), b = std::abs(Long(edge.normal.y));
   // From the corner that is drawn first, both axes toward the line.
-  const Long corner_x = x - accuracy::kEdgeSide / 2 + (edge.normal.x < 0 ? 1 : 0),
-             corner_y = y - accuracy::kEdgeSide / 2 + (edge.normal.y < 0 ? 1 : 0);
+  constexpr int kHalf = accuracy::kEdgeSide / 2;
+  const Long corner_x = x - kHalf + (edge.normal.x < 0 ? 1 : 0),
+             corner_y = y - kHalf + (edge.normal.y < 0 ? 1 : 0);
   const Long d = edge.offset - (corner_x * edge.normal.x + corner_y * edge.normal.y);
   const auto half_square = [](Long t) { return t > 0.0L ? t * t / 2.0L : 0.0L; };
   return (half_square(d) - half_square(d - a) - half_square(d - b) + half_square(d - a - b)) / (a * b);
@@ -293,8 +289,8 @@ TEST_F(GlTest, SamplesErrByWhatTheirPlacesInThePixelSay) {
           if (share <= 1e-12L || share >= 1.0L - 1e-12L) continue;
           int drawn = 0;
           for (const auto& place : places) {
-            const dvec3 at(x - accuracy::kEdgeSide / 2 + double(place[0]),
-                           y - accuracy::kEdgeSide / 2 + double(place[1]), 0.0);
+            constexpr int kHalf = accuracy::kEdgeSide / 2;
+            const dvec3 at(x - kHalf + double(place[0]), y - kHalf + double(place[1]), 0.0);
             drawn += at.x * edge.normal.x + at.y * edge.normal.y < edge.offset ? 1 : 0;
           }
           second.add(100.0L * (Long(drawn) / samples - share));
@@ -305,7 +301,8 @@ TEST_F(GlTest, SamplesErrByWhatTheirPlacesInThePixelSay) {
   }
 }
 
-constexpr int kDomeSide = 512, kFiner = 6;  ///< pixels of a dome's picture, and rays in one of them, a side
+constexpr int kDomeSide = 512,
+              kRaysAcross = 6;  ///< pixels of a dome's picture, and rays in one of them, a side
 
 /// Colours seen from a place, by five pictures of a pinhole camera 90 degrees wide, the middle one ahead.
 class Pictures {
@@ -366,18 +363,18 @@ TEST_F(GlTest, DomesErrByWhatPicturesOfAPinholeCameraSay) {
   {
     const Pictures pictures(camera, sun);
     tbb::parallel_for(std::size_t{0}, truth.size(), [&](std::size_t k) {
-      for (int part = 0; part < kFiner * kFiner; ++part) {
+      for (int part = 0; part < kRaysAcross * kRaysAcross; ++part) {
         const auto place = [](std::size_t pixel, int of) {
-          return (static_cast<double>(pixel) + (of + 0.5) / kFiner) * 2.0 / kDomeSide - 1.0;
+          return (static_cast<double>(pixel) + (of + 0.5) / kRaysAcross) * 2.0 / kDomeSide - 1.0;
         };
-        const double x = place(k % kDomeSide, part % kFiner);
-        const double y = -place(k / kDomeSide, part / kFiner);
+        const double x = place(k % kDomeSide, part % kRaysAcross);
+        const double y = -place(k / kDomeSide, part / kRaysAcross);
         const double radius = std::hypot(x, y);
         const double turn = radius * std::numbers::pi / 2.0;
         if (radius > 1.0) continue;  // black
         const auto color =
             pictures.at({x / radius * std::sin(turn), y / radius * std::sin(turn), std::cos(turn)});
-        for (std::size_t c = 0; c < 3; ++c) truth[k][c] += color[c] / (kFiner * kFiner);
+        for (std::size_t c = 0; c < 3; ++c) truth[k][c] += color[c] / (kRaysAcross * kRaysAcross);
       }
     });
   }

@@ -16,11 +16,11 @@ using views::Camera;
 using views::GlobeRenderer;
 using views::Place;
 
-constexpr int kWidth = 320;
-constexpr int kHeight = 180;
+constexpr int kLeakWidth = 320;
+constexpr int kLeakHeight = 180;
 constexpr double kLowestDrawn = -32000;  ///< no triangle of the planet sags lower, metres
 /// One of four samples blended over black ground is 64; the night's ground stays below 10.
-constexpr int kMagenta = 30;
+constexpr int kMagentaLevel = 30;
 
 struct Leaks {
   std::size_t pixels = 0;  ///< looked at
@@ -41,15 +41,15 @@ std::vector<std::uint8_t> drawn_red(GlobeRenderer& renderer, const Camera& camer
 /// Background among the rays that meet the ellipsoid lowered to the lowest ground.
 void count_in_planet(const Camera& camera, const std::vector<std::uint8_t>& red, Leaks& sum) {
   ++sum.cameras;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kLeakHeight; ++y) {
+    for (int x = 0; x < kLeakWidth; ++x) {
       const views::dvec3 direction =
-          views::ray(camera, (2.0 * x + 1.0) / kWidth - 1.0, 1.0 - (2.0 * y + 1.0) / kHeight);
+          views::ray(camera, (2.0 * x + 1.0) / kLeakWidth - 1.0, 1.0 - (2.0 * y + 1.0) / kLeakHeight);
       if (globe::geo::ray_ellipsoid(globe::geo::kWgs84, kLowestDrawn, camera.position, direction) < 0) {
         continue;
       }
       ++sum.pixels;
-      sum.leaks += red[static_cast<std::size_t>(y * kWidth + x)] > kMagenta ? 1 : 0;
+      sum.leaks += red[static_cast<std::size_t>(y * kLeakWidth + x)] > kMagentaLevel ? 1 : 0;
     }
   }
 }
@@ -57,10 +57,10 @@ void count_in_planet(const Camera& camera, const std::vector<std::uint8_t>& red,
 /// Background below ground, column by column.
 void count_below_ground(const std::vector<std::uint8_t>& red, Leaks& sum) {
   ++sum.cameras;
-  for (int x = 0; x < kWidth; ++x) {
+  for (int x = 0; x < kLeakWidth; ++x) {
     bool ground = false;
-    for (int y = 0; y < kHeight; ++y) {
-      const bool background = red[static_cast<std::size_t>(y * kWidth + x)] > kMagenta;
+    for (int y = 0; y < kLeakHeight; ++y) {
+      const bool background = red[static_cast<std::size_t>(y * kLeakWidth + x)] > kMagentaLevel;
       if (ground) {
         ++sum.pixels;
         sum.leaks += background ? 1 : 0;
@@ -106,7 +106,7 @@ Leaks leaks_looking_down(const std::shared_ptr<const views::Surface>& surface, c
   GlobeRenderer renderer(surface, views::geometry_settings(detail.detail));
   FramebufferFormat format;
   format.samples = detail.samples;
-  const Framebuffer picture(kWidth, kHeight, format);
+  const Framebuffer picture(kLeakWidth, kLeakHeight, format);
   std::mt19937_64 random(160);
   Leaks sum;
   for (std::size_t p = 0; p < places; ++p) {
@@ -135,7 +135,7 @@ Leaks leaks_toward_the_horizon(const std::shared_ptr<const views::Surface>& surf
   GlobeRenderer renderer(surface, views::geometry_settings(detail.detail));
   FramebufferFormat format;
   format.samples = detail.samples;
-  const Framebuffer picture(kWidth, kHeight, format);
+  const Framebuffer picture(kLeakWidth, kLeakHeight, format);
   std::mt19937_64 random(161);
   std::uniform_real_distribution<double> heading(0.0, 360.0);
   const std::size_t places = views::hard_places().size();
@@ -164,7 +164,7 @@ TEST_P(H16, NoBackgroundShowsBelowGroundTowardTheHorizon) {
                    " px",
                "0", std::to_string(sum.leaks));
   EXPECT_EQ(sum.leaks, 0u);
-  EXPECT_GT(sum.pixels, sum.cameras * kWidth * kHeight / 10) << "ground was hardly looked at";
+  EXPECT_GT(sum.pixels, sum.cameras * kLeakWidth * kLeakHeight / 10) << "ground was hardly looked at";
 }
 
 /// Rough finer ground over the pole, a corner of the octahedron, an edge of diamonds and the equator's fold.

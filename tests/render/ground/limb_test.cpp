@@ -16,8 +16,8 @@ using globe::geo::Ellipsoid;
 using views::Camera;
 using views::dvec3;
 
-constexpr int kWidth = 32;
-constexpr int kHeight = 720;
+constexpr int kLimbWidth = 32;
+constexpr int kLimbHeight = 720;
 constexpr double kLimbError = 0.5;              ///< pixels
 constexpr double kDegrees = 57.29577951308232;  ///< in a radian
 
@@ -30,13 +30,14 @@ double analytic_row(const Ellipsoid& ellipsoid, const Camera& camera) {
         globe::geo::ray_ellipsoid(ellipsoid, 0.0, camera.position, views::ray(camera, 0.0, y)) >= 0;
     (meets ? below : above) = y;
   }
-  return 0.5 * (1.0 - above) * kHeight;
+  return 0.5 * (1.0 - above) * kLimbHeight;
 }
 
 /// The same of the picture: rows of background above the ground in the middle column.
 double drawn_row(const std::vector<float>& depth) {
   int row = 0;
-  while (row < kHeight && depth[static_cast<std::size_t>(row * kWidth + kWidth / 2)] == 0.0f) ++row;
+  while (row < kLimbHeight && depth[static_cast<std::size_t>(row * kLimbWidth + kLimbWidth / 2)] == 0.0f)
+    ++row;
   return row;
 }
 
@@ -54,7 +55,7 @@ Limb measure_limb(const Ellipsoid& ellipsoid, int altitudes) {
   const auto surface = tests::open_surface(folder / "planet");
   EXPECT_TRUE(surface->has_sea());
   views::GlobeRenderer renderer(surface, views::geometry_settings(128));
-  const globe::gl::Framebuffer picture(kWidth, kHeight);
+  const globe::gl::Framebuffer picture(kLimbWidth, kLimbHeight);
   const Ellipsoid sphere{radius, 0.0};
   Limb limb;
   for (int k = 0; k < altitudes; ++k) {
@@ -63,7 +64,7 @@ Limb measure_limb(const Ellipsoid& ellipsoid, int altitudes) {
     const double h = radius * 1.57e-5 * std::pow(4e5, (k % (altitudes / 4) * 4 + place) / (altitudes - 1.0));
     const double dip = std::acos(radius / (radius + h)) * kDegrees;
     const Camera camera = globe::render::make_camera(ellipsoid, {lat, 33.0, h}, 72.0 * k, -dip, 20.0,
-                                                     static_cast<double>(kWidth) / kHeight);
+                                                     static_cast<double>(kLimbWidth) / kLimbHeight);
     renderer.draw(camera, dvec3(1, 0, 0), true, picture);
     // the limb is between the middles of the last row without ground and the first one with it
     const double seen = drawn_row(picture.read_depth());

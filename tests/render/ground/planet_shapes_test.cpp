@@ -27,14 +27,14 @@ struct Shape {
 
 class PlanetShapes : public GlTest, public testing::WithParamInterface<Shape> {};
 
-struct Counts {
+struct ShapeCounts {
   std::size_t pixels = 0, leaks = 0, picked = 0, wrong = 0;
 };
 
 /// Sky among the rays that meet the ellipsoid lowered to below all that is drawn, or nearly: ground made up
 /// below coarse data may lie lower still. At the limb double precision sees sky there too.
 void count_leaks(const DepthPicture& picture, const globe::clipmap::DrawnSurface& drawn,
-                 const Ellipsoid& ellipsoid, double lowest_m, Counts& counts) {
+                 const Ellipsoid& ellipsoid, double lowest_m, ShapeCounts& counts) {
   for (int y = 0; y < kPictureHeight; ++y) {
     for (int x = 0; x < kPictureWidth; ++x) {
       if (globe::geo::ray_ellipsoid(ellipsoid, lowest_m, picture.camera().position, picture.direction(x, y)) <
@@ -49,7 +49,7 @@ void count_leaks(const DepthPicture& picture, const globe::clipmap::DrawnSurface
 /// Sky below ground in a column. Beside a picture's middle columns lean, so that a cliff may have sky below
 /// it: there double precision sees sky too.
 void count_below_ground(const DepthPicture& picture, const globe::clipmap::DrawnSurface& drawn,
-                        Counts& counts) {
+                        ShapeCounts& counts) {
   for (int x = 0; x < kPictureWidth; ++x) {
     bool ground = false;
     for (int y = 0; y < kPictureHeight; ++y) {
@@ -79,7 +79,7 @@ TEST_P(PlanetShapes, AreDrawnWithoutLeaksAndPickedAsTheyAreDrawn) {
   const double lowest_m = -1.1 * (side * side / (2.0 * least_radius) + relief);
   std::mt19937_64 random(77);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  Counts counts;
+  ShapeCounts counts;
   const std::size_t cameras = hard::full() ? 120 : 12;
   for (std::size_t k = 0; k < cameras; ++k) {
     const Place& place = views::hard_places()[k % views::hard_places().size()];

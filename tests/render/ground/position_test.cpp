@@ -20,7 +20,7 @@ constexpr double kNearError = 1e-3;  ///< metres, within
 constexpr double kNear = 100.0;      ///< metres
 constexpr double kSecondDifference = 0.05;
 
-struct Errors {
+struct SightingErrors {
   double worst_px = 0, sum_px2 = 0, worst_near_m = 0, worst_naive_px = 0;
   std::size_t count = 0, near = 0;
 
@@ -38,7 +38,7 @@ struct Errors {
 
 TEST_F(GlTest, H1VerticesLieWhereDoublePrecisionPutsThem) {
   const auto surface = views::builtin_planet();
-  Errors errors;
+  SightingErrors errors;
   std::mt19937_64 random(10);
   for (const int detail : {16, 64}) {
     MeshProbe probe(surface, globe::clipmap::Settings::for_detail(detail, 0));

@@ -55,7 +55,7 @@ double bound(const Settings& settings, const Surface& surface, const Sighting& s
   return 4.0 * (surface.ellipsoid().a + glm::length(sighting.truth)) * kRounding;
 }
 
-struct Errors {
+struct PositionsErrors {
   double worst_px = 0, sum_px2 = 0, worst_m = 0, sum_m2 = 0;
   double worst_share = 0;  ///< of its bound
   std::size_t count = 0;
@@ -83,10 +83,10 @@ struct Band {
 const std::array<Band, 3> kBands{
     {{"below 100 m", 100.0}, {"100 m to 100 km", 1e5}, {"100 km to 100,000 km", 1e9}}};
 
-std::array<Errors, 3> errors_of(const Settings& settings) {
+std::array<PositionsErrors, 3> errors_of(const Settings& settings) {
   const auto surface = views::builtin_planet();
   MeshProbe probe(surface, settings);
-  std::array<Errors, 3> errors;
+  std::array<PositionsErrors, 3> errors;
   std::mt19937_64 random(10);
   const std::size_t cameras = hard::full() ? 90 : 12;
   for (std::size_t k = 0; k < cameras; ++k) {
@@ -101,12 +101,12 @@ std::array<Errors, 3> errors_of(const Settings& settings) {
 }
 
 TEST_F(GlTest, H1EachWayToPlaceVerticesErrsByWhatItShould) {
-  std::array<std::array<Errors, 3>, 4> seen;
+  std::array<std::array<PositionsErrors, 3>, 4> seen;
   for (std::size_t mode = 0; mode < kModes.size(); ++mode) {
     seen[mode] = errors_of(settings_for(hard::full() ? 64 : 32, kModes[mode]));
     double share = 0;
     for (std::size_t band = 0; band < kBands.size(); ++band) {
-      const Errors& errors = seen[mode][band];
+      const PositionsErrors& errors = seen[mode][band];
       share = std::max(share, errors.worst_share);
       EXPECT_GT(errors.count, 1000u) << word_of(kModes[mode]);
       hard::report("H1", "--positions " + word_of(kModes[mode]) + ", cameras " + kBands[band].name,
@@ -118,7 +118,7 @@ TEST_F(GlTest, H1EachWayToPlaceVerticesErrsByWhatItShould) {
     EXPECT_GT(share, 0.1) << word_of(kModes[mode]) << ": the bound says nothing";
   }
   const auto& [exact, quadratic, chord, float32] = seen;
-  for (const Errors& errors : exact) EXPECT_LE(errors.worst_px, kMaxPixels);
+  for (const PositionsErrors& errors : exact) EXPECT_LE(errors.worst_px, kMaxPixels);
   EXPECT_GT(float32[0].worst_px, kMaxPixels);  // jitters at the ground
   EXPECT_GT(chord[2].worst_px, kMaxPixels);    // an angular planet, seen from orbit
   EXPECT_LT(quadratic[2].worst_m, chord[2].worst_m / 10.0);

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "app/accuracy/mesh_probe.h"
+#include "globe/base/angles.h"
 #include "globe/clipmap/morph.h"
 #include "tests/hard/table.h"
 #include "tests/render/ground/views.h"
@@ -16,16 +17,16 @@ using app::accuracy::MeshProbe;
 using app::accuracy::ProbeVertex;
 using GeographicLib::Geocentric;
 using GeographicLib::LocalCartesian;
+using globe::kDegree;
 using globe::geo::Ellipsoid;
 using globe::geo::Geodetic;
 using views::Camera;
 using views::dvec3;
 using views::Place;
 
-constexpr int kWidth = 1280;
-constexpr int kHeight = 720;
+constexpr int kViewWidth = 1280;
+constexpr int kViewHeight = 720;
 constexpr double kPixels = 0.5;
-constexpr double kRadians = 0.017453292519943295;
 
 const std::vector<Place>& known_places() {
   static const std::vector<Place> places{{"Greenwich", 51.477928, 0},
@@ -53,15 +54,15 @@ std::optional<glm::dvec2> geodetic_pixel(const Ellipsoid& ellipsoid, const Stand
   const LocalCartesian local(stand.place.lat_deg, stand.place.lon_deg, stand.place.h_m, earth);
   dvec3 v;  // east, north, up
   local.Forward(of.lat_deg, of.lon_deg, of.h_m, v.x, v.y, v.z);
-  const double h = stand.heading_deg * kRadians, p = stand.pitch_deg * kRadians;
+  const double h = stand.heading_deg * kDegree, p = stand.pitch_deg * kDegree;
   const dvec3 forward(std::sin(h) * std::cos(p), std::cos(h) * std::cos(p), std::sin(p));
   const dvec3 up(-std::sin(h) * std::sin(p), -std::cos(h) * std::sin(p), std::cos(p));
   const dvec3 right(std::cos(h), -std::sin(h), 0.0);
   const double depth = glm::dot(v, forward);
   if (depth <= 0.0) return std::nullopt;
-  const double focal = 0.5 * kHeight / std::tan(0.5 * stand.fov_deg * kRadians);
-  return glm::dvec2(0.5 * kWidth + focal * glm::dot(v, right) / depth,
-                    0.5 * kHeight - focal * glm::dot(v, up) / depth);
+  const double focal = 0.5 * kViewHeight / std::tan(0.5 * stand.fov_deg * kDegree);
+  return glm::dvec2(0.5 * kViewWidth + focal * glm::dot(v, right) / depth,
+                    0.5 * kViewHeight - focal * glm::dot(v, up) / depth);
 }
 
 /// A camera at a height above a place's ellipsoid, aside by a share of the height, that has the place in
@@ -73,20 +74,20 @@ Stand stand_for(const Ellipsoid& ellipsoid, const Geodetic& place, double above_
   const double metres = aside * std::min(above_m, 0.3 * std::sqrt(2.0 * ellipsoid.a * above_m));
   Stand stand;
   double unused = 0;
-  around.Reverse(metres * std::sin(direction_deg * kRadians), metres * std::cos(direction_deg * kRadians),
-                 0.0, stand.place.lat_deg, stand.place.lon_deg, unused);
+  around.Reverse(metres * std::sin(direction_deg * kDegree), metres * std::cos(direction_deg * kDegree), 0.0,
+                 stand.place.lat_deg, stand.place.lon_deg, unused);
   stand.place.h_m = place.h_m + above_m;
   const LocalCartesian local(stand.place.lat_deg, stand.place.lon_deg, stand.place.h_m, earth);
   dvec3 v;
   local.Forward(place.lat_deg, place.lon_deg, place.h_m, v.x, v.y, v.z);
-  stand.heading_deg = std::atan2(v.x, v.y) / kRadians + off_x_deg;
-  stand.pitch_deg = std::clamp(std::atan2(v.z, std::hypot(v.x, v.y)) / kRadians + off_y_deg, -90.0, 90.0);
+  stand.heading_deg = std::atan2(v.x, v.y) / kDegree + off_x_deg;
+  stand.pitch_deg = std::clamp(std::atan2(v.z, std::hypot(v.x, v.y)) / kDegree + off_y_deg, -90.0, 90.0);
   return stand;
 }
 
 Camera camera_of(const Ellipsoid& ellipsoid, const Stand& stand) {
   return globe::render::make_camera(ellipsoid, stand.place, stand.heading_deg, stand.pitch_deg, stand.fov_deg,
-                                    static_cast<double>(kWidth) / kHeight);
+                                    static_cast<double>(kViewWidth) / kViewHeight);
 }
 
 dvec3 ecef(const Geocentric& earth, const Geodetic& place) {
@@ -133,7 +134,7 @@ std::optional<Drawn> drawn_place(const views::Surface& surface, const std::vecto
       if (vertices[k + c].kind != globe::render::Kind::kPlain) return std::nullopt;
     }
     return Drawn{glm::dot(across, corner[0]) / steepness,
-                 {0.5 * kWidth * (1.0 + clip.x / clip.w), 0.5 * kHeight * (1.0 - clip.y / clip.w)}};
+                 {0.5 * kViewWidth * (1.0 + clip.x / clip.w), 0.5 * kViewHeight * (1.0 - clip.y / clip.w)}};
   }
   return std::nullopt;
 }
@@ -166,7 +167,7 @@ TEST_F(GlTest, H25KnownPlacesLandOnThePixelThatGeodesySays) {
     place.h_m = drawn->height_m;
     const auto truth = geodetic_pixel(ellipsoid, stand, place);
     const auto wrong = geodetic_pixel(sphere, stand, place);
-    if (!truth || truth->x < 0 || truth->y < 0 || truth->x > kWidth || truth->y > kHeight) continue;
+    if (!truth || truth->x < 0 || truth->y < 0 || truth->x > kViewWidth || truth->y > kViewHeight) continue;
     ++seen;
     worst = std::max(worst, glm::distance(*truth, drawn->pixel));
     if (wrong) worst_sphere = std::max(worst_sphere, glm::distance(*wrong, drawn->pixel));

@@ -192,15 +192,15 @@ struct Steps {
   }
 };
 
-constexpr int kWidth = 320, kHeight = 180;
+constexpr int kSeamWidth = 320, kSeamHeight = 180;
 
 /// Diamonds that the pixels show; -1: none.
 std::vector<int> diamonds_of(const Camera& camera) {
   std::vector<int> result;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kSeamHeight; ++y) {
+    for (int x = 0; x < kSeamWidth; ++x) {
       const dvec3 direction =
-          views::ray(camera, (2.0 * x + 1.0) / kWidth - 1.0, 1.0 - (2.0 * y + 1.0) / kHeight);
+          views::ray(camera, (2.0 * x + 1.0) / kSeamWidth - 1.0, 1.0 - (2.0 * y + 1.0) / kSeamHeight);
       const double away = globe::geo::ray_ellipsoid(globe::geo::kWgs84, 0.0, camera.position, direction);
       if (away < 0.0) {
         result.push_back(-1);
@@ -217,10 +217,10 @@ std::vector<int> diamonds_of(const Camera& camera) {
 
 Steps steps_of(const std::vector<std::uint8_t>& rgba, const std::vector<int>& diamonds) {
   constexpr int kBeside = 8;
-  const auto at = [](int x, int y) { return static_cast<std::size_t>(y * kWidth + x); };
+  const auto at = [](int x, int y) { return static_cast<std::size_t>(y * kSeamWidth + x); };
   Steps sum;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = kBeside; x + 1 + kBeside < kWidth; ++x) {
+  for (int y = 0; y < kSeamHeight; ++y) {
+    for (int x = kBeside; x + 1 + kBeside < kSeamWidth; ++x) {
       const auto first = diamonds.begin() + static_cast<std::ptrdiff_t>(at(x - kBeside, y));
       const bool all_ground = std::none_of(first, first + 2 * kBeside + 2, [](int d) { return d < 0; });
       if (diamonds[at(x, y)] == diamonds[at(x + 1, y)] || !all_ground) continue;
@@ -242,19 +242,19 @@ Steps steps_of(const std::vector<std::uint8_t>& rgba, const std::vector<int>& di
   return sum;
 }
 
-struct Worst {
+struct WorstSeam {
   double excess = -1e9;
   std::size_t crossings = 0;
 };
 
 /// The picture whose seams show most.
-Worst steps_over_seams(const std::shared_ptr<const views::Surface>& surface) {
+WorstSeam steps_over_seams(const std::shared_ptr<const views::Surface>& surface) {
   globe::render::RenderSettings settings = views::geometry_settings(16);
   settings.clipmap = Settings::for_detail(16, 2);
   settings.max_level = kFinest;
   GlobeRenderer renderer(surface, settings);
-  const Framebuffer picture(kWidth, kHeight);
-  Worst worst;
+  const Framebuffer picture(kSeamWidth, kSeamHeight);
+  WorstSeam worst;
   for (const Place& place : seams()) {
     for (const double height : {2e5, 1e6, 4e6}) {
       const Camera camera = globe::render::make_camera(
@@ -271,7 +271,7 @@ Worst steps_over_seams(const std::shared_ptr<const views::Surface>& surface) {
 TEST_F(GlTest, H8ColorsStepNoMoreAcrossASeamThanBesideIt) {
   const tests::TemporaryFolder folder;
   const auto surface = smooth_planet(folder.path());
-  const Worst seen = steps_over_seams(surface);
+  const WorstSeam seen = steps_over_seams(surface);
   hard::report(
       "H8",
       "mean colour step across seams beyond those beside them, " + std::to_string(seen.crossings) + " pairs",
@@ -281,7 +281,7 @@ TEST_F(GlTest, H8ColorsStepNoMoreAcrossASeamThanBesideIt) {
   const views::ShaderVariant brighter(
       "clipmap.frag", "vec4 lit = at_pixel(lit_ground_of);",
       "vec4 lit = at_pixel(lit_ground_of) * (1.0 + 0.02 * mod(layers.x, 2.0));");
-  const Worst control = steps_over_seams(surface);
+  const WorstSeam control = steps_over_seams(surface);
   hard::report("H8", "negative control: every other layer brighter by a fiftieth", "> 1/255",
                hard::figure(control.excess) + "/255");
   EXPECT_GT(control.excess, 1.0);

@@ -10,8 +10,8 @@
 #include "tests/hard/table.h"
 #include "tests/render/gl_fixture.h"
 
-namespace shader {
 namespace {
+namespace shader {
 using namespace glm;
 #define OUT(type) type&
 #include "shaders/lib/atmosphere.glsl"
@@ -22,8 +22,8 @@ using namespace glm;
 
 // Used by the shaders alone.
 [[maybe_unused]] const auto kUnused = std::make_tuple(&haze, &light_before, &sky_light);
-}  // namespace
 }  // namespace shader
+}  // namespace
 
 namespace {
 

@@ -10,19 +10,19 @@ namespace {
 using views::Camera;
 using views::dvec3;
 
-constexpr int kSide = 1600;
+constexpr int kSkySide = 1600;
 
 /// Column and row from the top-left corner at which a direction is seen.
-glm::dvec2 pixel_of(const Camera& camera, const dvec3& direction) {
+glm::dvec2 pixel_toward(const Camera& camera, const dvec3& direction) {
   const double ahead = glm::dot(direction, camera.forward);
   const double x = glm::dot(direction, camera.right) / (ahead * camera.tan_x());
   const double y = glm::dot(direction, camera.up) / (ahead * camera.tan_y());
-  return {0.5 * (1.0 + x) * kSide, 0.5 * (1.0 - y) * kSide};
+  return {0.5 * (1.0 + x) * kSkySide, 0.5 * (1.0 - y) * kSkySide};
 }
 
 /// The brightest of a pixel's three bytes.
 int brightness(const std::vector<std::uint8_t>& rgba, int column, int row) {
-  const auto at = 4 * (static_cast<std::size_t>(row) * kSide + static_cast<std::size_t>(column));
+  const auto at = 4 * (static_cast<std::size_t>(row) * kSkySide + static_cast<std::size_t>(column));
   return std::max({rgba[at], rgba[at + 1], rgba[at + 2]});
 }
 
@@ -35,7 +35,7 @@ views::RenderSettings sky_settings() {
 TEST_F(GlTest, SkyFromSpaceIsARingOfAirWithoutAGap) {
   const auto surface = views::builtin_planet();
   views::GlobeRenderer renderer(surface, sky_settings());
-  const globe::gl::Framebuffer picture(kSide, kSide);
+  const globe::gl::Framebuffer picture(kSkySide, kSkySide);
   const auto& ellipsoid = surface->ellipsoid();
   const double round = ellipsoid.mean_radius();
   const dvec3 rounding(round / ellipsoid.a, round / ellipsoid.a, round / ellipsoid.b());
@@ -46,13 +46,13 @@ TEST_F(GlTest, SkyFromSpaceIsARingOfAirWithoutAGap) {
     renderer.draw(camera, glm::normalize(dvec3(0.02, 0.01, 1.0)), true, picture);
     const auto rgba = picture.read_rgba8();
     const double eye = glm::length(camera.position * rounding);
-    const double pixel_m = 2.0 * camera.tan_y() / kSide * std::sqrt(eye * eye - round * round);
+    const double pixel_m = 2.0 * camera.tan_y() / kSkySide * std::sqrt(eye * eye - round * round);
     for (int k = 0; k < 720; ++k) {
       const double azimuth = k * 0.5 / 57.29577951308232;
       const auto seen = [&](double above_m) {  // along the ray whose lowest point lies so high
         const double sine = (round + above_m) / eye;
         const dvec3 ray(sine * std::cos(azimuth), sine * std::sin(azimuth), -std::sqrt(1.0 - sine * sine));
-        const glm::dvec2 at = pixel_of(camera, ray / rounding);
+        const glm::dvec2 at = pixel_toward(camera, ray / rounding);
         return brightness(rgba, static_cast<int>(at.x), static_cast<int>(at.y));
       };
       const double top_m = 1e3 * globe::render::air_top_km();
@@ -65,7 +65,7 @@ TEST_F(GlTest, SkyFromSpaceIsARingOfAirWithoutAGap) {
 TEST_F(GlTest, NightSideFromSpaceIsDark) {
   const auto surface = views::builtin_planet();
   views::GlobeRenderer renderer(surface, sky_settings());
-  const globe::gl::Framebuffer picture(kSide, kSide);
+  const globe::gl::Framebuffer picture(kSkySide, kSkySide);
   for (const double height : {2.0e6, 2.0e7}) {
     const Camera camera =
         globe::render::make_camera(surface->ellipsoid(), {0.0, 180.0, height}, 0.0, -90.0, 20.0, 1.0);
@@ -73,8 +73,8 @@ TEST_F(GlTest, NightSideFromSpaceIsDark) {
     renderer.draw(camera, sun, true, picture);
     const auto rgba = picture.read_rgba8();
     int brightest = 0;
-    for (int row = kSide / 4; row < 3 * kSide / 4; ++row) {
-      for (int column = kSide / 4; column < 3 * kSide / 4; ++column)
+    for (int row = kSkySide / 4; row < 3 * kSkySide / 4; ++row) {
+      for (int column = kSkySide / 4; column < 3 * kSkySide / 4; ++column)
         brightest = std::max(brightest, brightness(rgba, column, row));
     }
     EXPECT_LE(brightest, 1) << height;
@@ -84,7 +84,7 @@ TEST_F(GlTest, NightSideFromSpaceIsDark) {
 TEST_F(GlTest, SunFromSpaceIsADiscInItsPlace) {
   const auto surface = views::builtin_planet();
   views::GlobeRenderer renderer(surface, sky_settings());
-  const globe::gl::Framebuffer picture(kSide, kSide);
+  const globe::gl::Framebuffer picture(kSkySide, kSkySide);
   const Camera camera =
       globe::render::make_camera(surface->ellipsoid(), {20.0, 50.0, 4.0e6}, 70.0, 40.0, 10.0, 1.0);
   for (const glm::dvec2 place : {glm::dvec2(0.0), glm::dvec2(-0.7, 0.4), glm::dvec2(0.2, -0.9)}) {
@@ -93,17 +93,17 @@ TEST_F(GlTest, SunFromSpaceIsADiscInItsPlace) {
     const auto rgba = picture.read_rgba8();
     int count = 0;
     glm::dvec2 sum(0.0);
-    for (int row = 0; row < kSide; ++row) {
-      for (int column = 0; column < kSide; ++column) {
+    for (int row = 0; row < kSkySide; ++row) {
+      for (int column = 0; column < kSkySide; ++column) {
         if (brightness(rgba, column, row) < 128) continue;
         ++count;
         sum += glm::dvec2(column + 0.5, row + 0.5);
       }
     }
     const double radius =
-        std::tan(0.266 / 57.29577951308232) / camera.tan_y() * 0.5 * kSide;  // 0.266 degrees
+        std::tan(0.266 / 57.29577951308232) / camera.tan_y() * 0.5 * kSkySide;  // 0.266 degrees
     EXPECT_NEAR(count, 3.14159265 * radius * radius, 0.05 * count);
-    EXPECT_LT(glm::distance(sum / double(std::max(count, 1)), pixel_of(camera, sun)), 0.5);
+    EXPECT_LT(glm::distance(sum / double(std::max(count, 1)), pixel_toward(camera, sun)), 0.5);
   }
 }
 

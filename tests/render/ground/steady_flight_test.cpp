@@ -16,7 +16,7 @@ using views::dvec3;
 using views::GlobeRenderer;
 using views::Place;
 
-constexpr int kWidth = 320, kHeight = 180;
+constexpr int kSteadyWidth = 320, kSteadyHeight = 180;
 
 /// Mean difference of two pictures' channels, of 255.
 double difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
@@ -35,7 +35,7 @@ double worst_spike(const Place& place, std::size_t frames) {
   globe::render::RenderSettings settings = views::geometry_settings(32);
   settings.clipmap = globe::clipmap::Settings::for_detail(32, 2);
   GlobeRenderer renderer(surface, settings);
-  const Framebuffer picture(kWidth, kHeight);
+  const Framebuffer picture(kSteadyWidth, kSteadyHeight);
   const dvec3 u = globe::geo::normal_from_degrees(place.lat_deg, place.lon_deg);
   const double ground = surface->drawn_height(surface->height(u, 20));
   std::vector<double> differences;

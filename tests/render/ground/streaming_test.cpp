@@ -245,7 +245,7 @@ dvec3 sun_of(const Motion& motion, std::size_t frame) {
   return {std::cos(angle), std::sin(angle), 0.0};
 }
 
-struct Seen {
+struct SeenStream {
   std::size_t frames = 0, incomplete = 0, open_edges = 0, not_a_sphere = 0, edges = 0, wrong_vertices = 0;
 };
 
@@ -272,7 +272,7 @@ TEST_F(GlTest, FastMotionNeverWaitsIsAlwaysClosedAndSettles) {
   RenderSettings render;
   render.clipmap = Settings::for_detail(16, 0);
   const MeshProbe probe(surface, render.clipmap);
-  Seen seen;
+  SeenStream seen;
   std::size_t different_bytes = 0, most_frames = 0;
   for (const Motion& motion : motions()) {
     GlobeRenderer renderer(surface, render);

@@ -22,7 +22,7 @@ using views::Camera;
 using views::dvec3;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kPixels = 0.5;
+constexpr double kWidePixels = 0.5;
 
 /// A sphere of water.
 std::shared_ptr<const views::Surface> sphere_of_water(const tests::TemporaryFolder& folder, double radius) {
@@ -72,8 +72,8 @@ TEST_F(GlTest, TheLimbOfASphereIsACircleOfItsAngularRadiusInAFisheye) {
   }
   hard::report("projection", "limb of a sphere in a fisheye of 512 pixels, 2 km to 20,000 km", "0.5 px",
                hard::figure(worst) + " px");
-  EXPECT_LE(worst, kPixels);
-  EXPECT_GT(worst_linear, kPixels);
+  EXPECT_LE(worst, kWidePixels);
+  EXPECT_GT(worst_linear, kWidePixels);
 }
 
 TEST_F(GlTest, DepthInAPanoramaIsTheDistanceToASphereAlongEachRay) {
@@ -99,8 +99,8 @@ TEST_F(GlTest, DepthInAPanoramaIsTheDistanceToASphereAlongEachRay) {
       const double shown = near_m / static_cast<double>(value);
       // Somewhere within half a pixel the ray is as long as shown, but for the sag of flat triangles.
       double least = 1e300, most = 0.0;
-      for (const double dy : {-kPixels, 0.0, kPixels}) {
-        for (const double dx : {-kPixels, 0.0, kPixels}) {
+      for (const double dy : {-kWidePixels, 0.0, kWidePixels}) {
+        for (const double dx : {-kWidePixels, 0.0, kWidePixels}) {
           const auto ray = globe::render::direction_through(
               Projection::kEquirectangular, camera, (x + 0.5 + dx) / kWidth, (y + 0.5 + dy) / kHeight);
           if (!ray) continue;

@@ -155,7 +155,8 @@ TEST(AccuracyRemeasured, StoredHeightsByImathAndInLongDouble) {
   for (int d = 0; d < globe::planet::kDiamonds; ++d)
     for (int j = 0; j < n; j += 2)
       for (int i = 0; i < n; i += 2) heights.push_back(surface->height({d, kLevel, i, j}));
-  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  const auto ends = std::minmax_element(heights.begin(), heights.end());
+  const auto low = ends.first, high = ends.second;
   Second byte, half, word, whole;
   for (const double h : heights) {
     const auto steps = [&](Long most) {

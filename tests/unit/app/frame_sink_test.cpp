@@ -14,15 +14,11 @@
 namespace app {
 namespace {
 
+using tests::bytes_of;
 using tests::TemporaryFolder;
 using Names = std::set<std::string>;
 
 constexpr int kWidth = 64, kHeight = 48;
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(file), {});
-}
 
 /// A picture whose colour tells its number.
 std::vector<std::uint8_t> frame(int number, int width = kWidth, int height = kHeight) {

@@ -14,13 +14,9 @@
 namespace app {
 namespace {
 
+using tests::bytes_of;
 using tests::TemporaryFolder;
 using Names = std::set<std::string>;
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(file), {});
-}
 
 std::vector<std::uint8_t> ramp(int width, int height) {
   std::vector<std::uint8_t> rgba(static_cast<std::size_t>(width * height) * 4);

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "tests/temporary_folder.h"
+
 // Which test measures the errors of which study of `globe accuracy` again, by a second method, and which are
 // not measured again, and why.
 
@@ -66,11 +68,6 @@ constexpr std::array kAgain{
     Again{"flat.spacing", "PostsOfAPlanetsPartErrByWhatGeographicLibsFrameSays", ""},
     Again{"flat.endless", "EndlessGroundErrsByWhatTheDepthOfPicturesSays", ""}};
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST(AccuracyRemeasuredList, HasEveryStudyOfTheReport) {
   std::ifstream report(fs::path(GLOBE_SOURCE_DIR) / "tests/bench/results/accuracy-amd-epyc.csv");
   std::string row;
@@ -88,7 +85,7 @@ TEST(AccuracyRemeasuredList, NamesTestsThatThereAreOrSaysWhyThereIsNone) {
   std::string tests;
   for (const char* folder : {"tests/unit", "tests/render"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(GLOBE_SOURCE_DIR) / folder))
-      if (entry.path().extension() == ".cpp") tests += text_of(entry.path());
+      if (entry.path().extension() == ".cpp") tests += tests::bytes_of(entry.path());
   }
   for (const Again& again : kAgain) {
     EXPECT_TRUE(again.test.empty() || tests.find(", " + std::string(again.test) + ")") != std::string::npos)

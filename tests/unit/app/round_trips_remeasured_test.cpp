@@ -207,9 +207,10 @@ class Nodes {
 
 TEST(AccuracyRemeasured, RoundTripsOfAMapByTheTextbook) {
   constexpr std::array kMethods{"nearest", "bilinear", "bicubic", "area", "bicubic, back cubic"};
-  const auto [width, truth_width, level] = map_sample(Scope{});
+  const MapSample sample = map_sample(Scope{});
+  const int truth_width = sample.truth_width, level = sample.own_level;
   const converters::HeightMap truth = converters::map_of(known_relief(), truth_width);
-  const converters::HeightMap pixels = converters::map_of(known_relief(), width);
+  const converters::HeightMap pixels = converters::map_of(known_relief(), sample.width);
   const Plane map(pixels);
   const Nodes nodes(map, level);
   const Long truth_step = 360.0L / truth_width;

@@ -21,7 +21,7 @@ using globe::clipmap::ShadingNodes;
 namespace shader {
 using namespace glm;
 #include "shaders/lib/lit_ground.glsl"
-[[maybe_unused]] constexpr auto kUnused = &lit_ground;
+[[maybe_unused]] constexpr auto kUnusedLight = &lit_ground;
 }  // namespace shader
 
 /// Ground of any slope and colour.

@@ -171,7 +171,7 @@ TEST(Convert, WarnsOfAnotherBodyAndOfVoids) {
   EXPECT_NE(warnings.find("25 % of the surface is void"), std::string::npos) << warnings;
 }
 
-struct Spot {
+struct ColorSpot {
   const char* name;
   double lat, lon;
   std::vector<double> value;
@@ -179,7 +179,7 @@ struct Spot {
 
 /// Of the nodes within `reach` of a place, how near the best comes to the value wanted (largest difference of
 /// a channel).
-double best_match(const Dataset& planet, const char* layer, double unit, const Spot& spot, int reach) {
+double best_match(const Dataset& planet, const char* layer, double unit, const ColorSpot& spot, int reach) {
   const globe::planet::LayerInfo& info = *planet.layer(layer);
   const globe::planet::Place place =
       globe::planet::locate(globe::geo::normal_from_degrees(spot.lat, spot.lon), info.level);
@@ -201,8 +201,8 @@ double best_match(const Dataset& planet, const char* layer, double unit, const S
 }
 
 void expect_spots(const Dataset& planet, const char* layer, double unit, double tolerance, int reach,
-                  const std::vector<Spot>& spots) {
-  for (const Spot& spot : spots)
+                  const std::vector<ColorSpot>& spots) {
+  for (const ColorSpot& spot : spots)
     EXPECT_LE(best_match(planet, layer, unit, spot, reach), tolerance) << spot.name;
 }
 

@@ -6,9 +6,9 @@
 
 #include <cmath>
 #include <fstream>
-#include <numbers>
 
 #include "converters/use_gdal.h"
+#include "globe/base/angles.h"
 #include "globe/base/error.h"
 #include "globe/planet/interpolation.h"
 #include "tests/node_planet.h"
@@ -17,11 +17,11 @@
 namespace converters {
 namespace {
 
+using globe::kDegree;
 using globe::planet::Node;
 using globe::planet::Surface;
+using tests::bytes_of;
 using tests::TemporaryFolder;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Smooth, without symmetry, metres.
 double hills(const globe::geo::dvec3& u) {
@@ -57,11 +57,6 @@ Raster read(const std::filesystem::path& path) {
                                              raster.width, raster.height, GDT_Float32, 0, 0),
             CE_None);
   return raster;
-}
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 class ExportMap : public testing::Test {

@@ -1,21 +1,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "converters/footprint.h"
 #include "converters/map_geometry.h"
 #include "converters/node_block.h"
+#include "globe/base/angles.h"
 #include "globe/base/error.h"
 #include "tests/unit/converters/test_maps.h"
 
 namespace converters {
 namespace {
 
+using globe::kDegree;
 using globe::planet::Node;
 using globe::planet::nodes_per_side;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 TEST(NodeBlock, EqualsNodeDirectionBitForBit) {
   for (const int level : {0, 1, 3, 6, 9, 20}) {

@@ -13,19 +13,19 @@ namespace {
 using globe::planet::dvec3;
 using globe::planet::Node;
 
-constexpr int kLevel = 8;
+constexpr int kShapeLevel = 8;
 
 /// The plane z = 100 x + 50 y over a cap; NaN where `is_void`.
 InsetGrid<float> plane_over_cap(const dvec3& centre, double chord,
                                 const std::function<bool(const Node&)>& is_void) {
-  const int n = globe::planet::nodes_per_side(kLevel);
+  const int n = globe::planet::nodes_per_side(kShapeLevel);
   std::vector<globe::planet::InsetBlock> everywhere;
   for (int d = 0; d < globe::planet::kDiamonds; ++d) everywhere.push_back({d, 0, n, 0, n});
-  InsetGrid<float> grid(kLevel, everywhere, std::numeric_limits<float>::quiet_NaN());
+  InsetGrid<float> grid(kShapeLevel, everywhere, std::numeric_limits<float>::quiet_NaN());
   for (int d = 0; d < globe::planet::kDiamonds; ++d) {
     for (int j = 0; j <= n; ++j) {
       for (int i = 0; i <= n; ++i) {
-        const Node node{d, kLevel, i, j};
+        const Node node{d, kShapeLevel, i, j};
         const dvec3 u = node_direction(node);
         const double away = glm::distance(u, centre);
         if (away > chord + 0.4) continue;
@@ -53,9 +53,9 @@ TEST(InsetShape, WeightRisesFromZeroOutsideToOneWithoutASteepStepByEveryName) {
         shaped(plane_over_cap(centre, 0.2, [](const Node&) { return false; }), {12, 0.0}, report);
     EXPECT_EQ(report.rim, 12);
     EXPECT_EQ(samples.weight.get(
-                  globe::planet::fold({globe::planet::locate(centre, kLevel).d, kLevel,
-                                       static_cast<int>(globe::planet::locate(centre, kLevel).ij.x),
-                                       static_cast<int>(globe::planet::locate(centre, kLevel).ij.y)})),
+                  globe::planet::fold({globe::planet::locate(centre, kShapeLevel).d, kShapeLevel,
+                                       static_cast<int>(globe::planet::locate(centre, kShapeLevel).ij.x),
+                                       static_cast<int>(globe::planet::locate(centre, kShapeLevel).ij.y)})),
               1.0F);
     for_each_vertex(samples.values[0], [&](const Node& node) {
       const float w = samples.weight.get(node);
@@ -71,7 +71,7 @@ TEST(InsetShape, WeightRisesFromZeroOutsideToOneWithoutASteepStepByEveryName) {
       for (int k = 1; k < all.count; ++k)
         ASSERT_EQ(samples.weight.get(all.node[static_cast<std::size_t>(k)]), w);
       for (const auto& step : globe::planet::kLatticeSteps) {
-        const Node beside = globe::planet::fold({node.d, kLevel, node.i + step.x, node.j + step.y});
+        const Node beside = globe::planet::fold({node.d, kShapeLevel, node.i + step.x, node.j + step.y});
         ASSERT_LT(std::abs(samples.weight.get(beside) - w), 0.3F);
         // Values go on as far as stencils reach.
         if (w > 0.0F) {

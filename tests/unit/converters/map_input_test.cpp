@@ -6,10 +6,10 @@
 
 #include <cmath>
 #include <fstream>
-#include <numbers>
 
 #include "converters/geoid.h"
 #include "converters/sampler.h"
+#include "globe/base/angles.h"
 #include "globe/base/error.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/converters/gdal_maps.h"
@@ -18,6 +18,7 @@
 namespace converters {
 namespace {
 
+using globe::kDegree;
 using globe::geo::degrees_from_normal;
 using globe::geo::Geodetic;
 using globe::geo::kMars;
@@ -26,7 +27,6 @@ using globe::planet::node_direction;
 using test::GeoTiff;
 using tests::TemporaryFolder;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 const PlanetFrame kEarth{kWgs84};
 
 double smooth(double lat, double lon) { return 1000.0 * std::sin(3 * lat * kDegree) + 10.0 * lon; }

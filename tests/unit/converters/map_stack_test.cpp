@@ -4,13 +4,14 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
+#include "globe/base/angles.h"
 #include "tests/unit/converters/test_maps.h"
 
 namespace converters {
 namespace {
 
+using globe::kDegree;
 using globe::geo::degrees_from_normal;
 using globe::geo::dvec3;
 using globe::geo::Geodetic;
@@ -18,15 +19,14 @@ using globe::planet::Node;
 using globe::planet::node_direction;
 using test::broken_edges;
 using test::for_each_node;
+using test::kAllFilters;
 using test::plenty;
 using test::sample;
 using test::stack_of;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr Filter kAllFilters[] = {Filter::kNearest, Filter::kBilinear, Filter::kBicubic, Filter::kArea};
-constexpr int kLevel = 7;
+constexpr int kStackLevel = 7;
 
-double smooth(double lat, double lon) {
+double waves(double lat, double lon) {
   return 100.0 * std::cos(lat * kDegree) * std::cos(3 * lon * kDegree) + 10.0 * lat;
 }
 
@@ -100,13 +100,13 @@ void for_each_sample(const MapStack& maps, int d, int level, Gaps gaps, const Bo
 
 TEST(MapStack, PartsOfOneLatticeThatAdjoinGiveWhatTheWholeGives) {
   MemoryBudget budget = plenty();
-  const SourceMap whole = map_of(part(720, 360, {-180, -90, 180, 90}), smooth, budget);
-  const SourceMap west = map_of(part(360, 360, {-180, -90, 0, 90}), smooth, budget);
-  const SourceMap north = map_of(part(360, 180, {0, 0, 180, 90}), smooth, budget);
-  const SourceMap south = map_of(part(360, 180, {0, -90, 180, 0}), smooth, budget);
+  const SourceMap whole = map_of(part(720, 360, {-180, -90, 180, 90}), waves, budget);
+  const SourceMap west = map_of(part(360, 360, {-180, -90, 0, 90}), waves, budget);
+  const SourceMap north = map_of(part(360, 180, {0, 0, 180, 90}), waves, budget);
+  const SourceMap south = map_of(part(360, 180, {0, -90, 180, 0}), waves, budget);
   for (const Filter filter : {Filter::kNearest, Filter::kBilinear, Filter::kArea}) {
-    const NodeGrid<float> reference = sample(whole, filter, kLevel, budget);
-    const NodeGrid<float> joined = sample(stack_of({&west, &north, &south}, filter), kLevel, budget);
+    const NodeGrid<float> reference = sample(whole, filter, kStackLevel, budget);
+    const NodeGrid<float> joined = sample(stack_of({&west, &north, &south}, filter), kStackLevel, budget);
     for_each_node(joined, [&](const Node& node, float value) {
       const Geodetic at = degrees_from_normal(node_direction(node));
       // The parts know of no row beyond a pole, and between two samples rounding picks the nearest.
@@ -130,7 +130,7 @@ TEST(MapStack, LaterMapsLieOverEarlierOnesAndTheirVoidsShowThem) {
     for (const bool base_first : {true, false}) {
       const MapStack maps =
           base_first ? stack_of({&base, &later}, filter) : stack_of({&later, &base}, filter);
-      for_each_sample(maps, 0, kLevel, Gaps::kFill,
+      for_each_sample(maps, 0, kStackLevel, Gaps::kFill,
                       [&](const Node& node, double value, double weight, const Geodetic& at) {
                         ASSERT_FLOAT_EQ(static_cast<float>(weight), 1.0F);
                         const auto inside = [&](double rim) {
@@ -162,7 +162,7 @@ TEST(MapStack, TellsWhichNodesNothingReachesAndFillsOnlyVoids) {
   for (const Filter filter : kAllFilters) {
     for (const Gaps gaps : {Gaps::kZero, Gaps::kFill}) {
       int voids = 0, outside = 0;
-      for_each_sample(stack_of({&map}, filter), 0, kLevel, gaps,
+      for_each_sample(stack_of({&map}, filter), 0, kStackLevel, gaps,
                       [&](const Node&, double value, double weight, const Geodetic& at) {
                         if (std::abs(at.lat_deg - 30) < 3 && std::abs(at.lon_deg - 40) < 3) {
                           ++voids;
@@ -185,9 +185,9 @@ TEST(MapStack, FollowsAFunctionThroughAProjection) {
   MemoryBudget budget = plenty();
   // Over a pole, the antimeridian with the equator, and a plain place.
   for (const Geodetic& middle : {Geodetic{90, 0}, Geodetic{-88, 130}, Geodetic{0, 179}, Geodetic{47, 11}}) {
-    const SourceMap map = stereographic_map(middle, 400, 0.1, smooth, budget);
+    const SourceMap map = stereographic_map(middle, 400, 0.1, waves, budget);
     for (const Filter filter : kAllFilters) {
-      const NodeGrid<float> grid = sample(stack_of({&map}, filter), kLevel, budget, Gaps::kZero);
+      const NodeGrid<float> grid = sample(stack_of({&map}, filter), kStackLevel, budget, Gaps::kZero);
       EXPECT_EQ(broken_edges(grid), 0);
       double worst = 0;
       int inside = 0;
@@ -198,7 +198,7 @@ TEST(MapStack, FollowsAFunctionThroughAProjection) {
         const Geodetic at = degrees_from_normal(u);
         if (away < 19) {
           ++inside;
-          worst = std::max(worst, std::abs(static_cast<double>(value) - smooth(at.lat_deg, at.lon_deg)));
+          worst = std::max(worst, std::abs(static_cast<double>(value) - waves(at.lat_deg, at.lon_deg)));
         }
         if (away > 31) {
           ASSERT_EQ(value, 0.0F);
@@ -218,7 +218,7 @@ TEST(MapStack, AreaFilterAveragesManySamplesOfAPartInBlocks) {
   MemoryBudget budget = plenty();
   const auto noisy = [](double lat, double lon) {
     const double x = std::sin(lat * 127.1 + lon * 311.7) * 43758.5453;
-    return smooth(lat, lon) + 100.0 * (x - std::floor(x) - 0.5);
+    return waves(lat, lon) + 100.0 * (x - std::floor(x) - 0.5);
   };
   const SourceMap whole = stereographic_map({47, 11}, 1001, 0.03, noisy, budget);
   const SourceMap blocks = stereographic_map({47, 11}, 1001, 0.03, noisy, budget, 4);
@@ -232,7 +232,7 @@ TEST(MapStack, AreaFilterAveragesManySamplesOfAPartInBlocks) {
     ++inside;
     ASSERT_NEAR(value, *b.at(node.d, node.i, node.j), 0.5);
     const Geodetic at = degrees_from_normal(u);
-    ASSERT_NEAR(value, smooth(at.lat_deg, at.lon_deg), 2.0);
+    ASSERT_NEAR(value, waves(at.lat_deg, at.lon_deg), 2.0);
   });
   EXPECT_GT(inside, 20);
 }

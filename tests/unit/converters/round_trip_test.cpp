@@ -4,17 +4,17 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "converters/thesis_mapping.h"
+#include "globe/base/angles.h"
 #include "globe/planet/grid.h"
 
 namespace converters {
 namespace {
 
+using globe::kDegree;
 using globe::geo::dvec3;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kWidth = 512;  ///< 128 pixels in 90 degrees: level 7
 
 const Harmonics kRelief(64, 20261124, 1000.0);

@@ -10,12 +10,14 @@
 #include <random>
 
 #include "converters/footprint.h"
+#include "globe/base/angles.h"
 #include "globe/base/error.h"
 #include "tests/unit/converters/test_maps.h"
 
 namespace converters {
 namespace {
 
+using globe::kDegree;
 using globe::geo::degrees_from_normal;
 using globe::geo::Geodetic;
 using globe::planet::Node;
@@ -25,10 +27,9 @@ using test::broken_edges;
 using test::for_each_node;
 using test::geometry_of;
 using test::height_map;
+using test::kAllFilters;
 using test::plenty;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr Filter kAllFilters[] = {Filter::kNearest, Filter::kBilinear, Filter::kBicubic, Filter::kArea};
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 double cos_cos(double lat, double lon) { return std::cos(lat * kDegree) * std::cos(lon * kDegree); }

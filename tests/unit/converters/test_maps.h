@@ -10,6 +10,9 @@
 
 namespace converters::test {
 
+inline constexpr Filter kAllFilters[] = {Filter::kNearest, Filter::kBilinear, Filter::kBicubic,
+                                         Filter::kArea};
+
 /// A map in memory: value(column, row, channel).
 class FunctionRaster : public RasterSource {
  public:

@@ -8,12 +8,12 @@
 
 #include "tests/hard/table.h"
 
-namespace shader {
 namespace {
+namespace shader {
 using namespace glm;
 #include "shaders/lib/exponential_layer.glsl"
-}  // namespace
 }  // namespace shader
+}  // namespace
 
 namespace {
 

@@ -12,28 +12,28 @@ std::string scene_with(const std::string& sea) {
   return "planet = \"procedural\"\n[camera]\nat = \"0,0,100\"\n" + sea;
 }
 
-void expect_refused(const std::string& sea, const std::string& begin, const std::string& part) {
+void expect_sea_refused(const std::string& sea, const std::string& begin, const std::string& part) {
   scene_tests::expect_refusal([&] { scene::parse_scene(scene_with(sea), "s.toml", effect_kinds()); }, begin,
                               part);
 }
 
 TEST(SeaScene, WavesThatCannotBeAreRefusedByFileLineAndKey) {
-  expect_refused("[effects.sea]\n[[effects.sea.waves]]\namplitude = -1\nwavelength = 50\n",
-                 "s.toml:6: effects.sea.waves[0].amplitude: ", "-1");
-  expect_refused("[effects.sea]\n[[effects.sea.waves]]\namplitude = 1\nwavelength = 0\n",
-                 "s.toml:7: effects.sea.waves[0].wavelength: ", "0");
-  expect_refused("[effects.sea]\n[[effects.sea.waves]]\nwavelength = 50\n",
-                 "s.toml:5: effects.sea.waves[0]: ", "amplitude is missing");
-  expect_refused("[effects.sea]\n[[effects.sea.waves]]\namplitude = 1\n",
-                 "s.toml:5: effects.sea.waves[0]: ", "wavelength is missing");
-  expect_refused("[effects.sea]\n[[effects.sea.waves]]\namplitude = 1\nwavelength = 50\nfrequency = 1\n",
-                 "s.toml:8: effects.sea.waves[0].frequency: ", "leave one of the two out");
-  expect_refused("[effects.sea]\n[[effects.sea.waves]]\namplitude = 1\nfrequency = 0.1\nhight = 2\n",
-                 "s.toml:8: effects.sea.waves[0].hight: ", "");
-  expect_refused("[effects.sea]\nwind_speed = -3\n", "s.toml:5: effects.sea.wind_speed: ", "-3");
+  expect_sea_refused("[effects.sea]\n[[effects.sea.waves]]\namplitude = -1\nwavelength = 50\n",
+                     "s.toml:6: effects.sea.waves[0].amplitude: ", "-1");
+  expect_sea_refused("[effects.sea]\n[[effects.sea.waves]]\namplitude = 1\nwavelength = 0\n",
+                     "s.toml:7: effects.sea.waves[0].wavelength: ", "0");
+  expect_sea_refused("[effects.sea]\n[[effects.sea.waves]]\nwavelength = 50\n",
+                     "s.toml:5: effects.sea.waves[0]: ", "amplitude is missing");
+  expect_sea_refused("[effects.sea]\n[[effects.sea.waves]]\namplitude = 1\n",
+                     "s.toml:5: effects.sea.waves[0]: ", "wavelength is missing");
+  expect_sea_refused("[effects.sea]\n[[effects.sea.waves]]\namplitude = 1\nwavelength = 50\nfrequency = 1\n",
+                     "s.toml:8: effects.sea.waves[0].frequency: ", "leave one of the two out");
+  expect_sea_refused("[effects.sea]\n[[effects.sea.waves]]\namplitude = 1\nfrequency = 0.1\nhight = 2\n",
+                     "s.toml:8: effects.sea.waves[0].hight: ", "");
+  expect_sea_refused("[effects.sea]\nwind_speed = -3\n", "s.toml:5: effects.sea.wind_speed: ", "-3");
   std::string high;
   for (int k = 0; k < 3; ++k) high += "[[effects.sea.waves]]\namplitude = 15\nwavelength = 500\n";
-  expect_refused("[effects.sea]\n" + high, "s.toml:5: effects.sea.waves: ", "40 m");
+  expect_sea_refused("[effects.sea]\n" + high, "s.toml:5: effects.sea.waves: ", "40 m");
 }
 
 TEST(SeaScene, OnlyAPlanetWithABareSeaFloorHasASea) {

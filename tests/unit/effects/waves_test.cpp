@@ -14,15 +14,15 @@
 #include "globe/geo/ellipsoid.h"
 #include "tests/hard/table.h"
 
-namespace shader {
 namespace {
+namespace shader {
 using namespace glm;
 #include "shaders/lib/waves.glsl"
 
 // Used by the shaders alone.
 [[maybe_unused]] const auto kUnused = std::make_tuple(&mesh_share, &pixel_share, &shoal_share);
-}  // namespace
 }  // namespace shader
+}  // namespace
 
 namespace globe::effects {
 namespace {

@@ -24,8 +24,8 @@ inline std::vector<Triangle> mesh_of(const Terrain& terrain, const std::vector<f
         globe::flat::patch_state(levels, terrain.patches_east(), terrain.patches_north(), patch);
     const std::vector<PatchVertex> vertices = patch_vertices(terrain, patch, state);
     const auto east = static_cast<std::size_t>(terrain.patches_east());
-    const double column = static_cast<double>(patch % east) * 16,
-                 row = static_cast<double>(patch / east) * 16;
+    const auto column = static_cast<double>(patch % east * 16);
+    const auto row = static_cast<double>(patch / east * 16);
     const std::vector<std::uint16_t> indices = globe::flat::patch_indices(state.shape());
     for (std::size_t k = 0; k < indices.size(); k += 3) {
       Triangle& triangle = triangles.emplace_back();

@@ -13,22 +13,19 @@
 #include "globe/geo/ellipsoid.h"
 #include "globe/htm/complement.h"
 #include "globe/htm/cover.h"
+#include "tests/hard/directions.h"
 
 namespace globe::htm {
 namespace {
 
 using geo::normal_from_degrees;
+using hard::random_direction;
 using Rings = Polygon::Rings;
 
 Polygon::Ring ring(const std::vector<std::pair<double, double>>& lat_lon) {
   Polygon::Ring result;
   for (const auto& [lat, lon] : lat_lon) result.push_back(normal_from_degrees(lat, lon));
   return result;
-}
-
-dvec3 random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  return glm::normalize(dvec3{normal(random), normal(random), normal(random)});
 }
 
 /// A ring of corners at random distances around a direction.

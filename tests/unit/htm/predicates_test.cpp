@@ -6,14 +6,12 @@
 #include <random>
 
 #include "globe/htm/midpoint.h"
+#include "tests/hard/directions.h"
 
 namespace globe::htm {
 namespace {
 
-dvec3 random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  return glm::normalize(dvec3{normal(random), normal(random), normal(random)});
-}
+using hard::random_direction;
 
 TEST(Orientation, OfTheAxesIsThatOfTheFrame) {
   const dvec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};

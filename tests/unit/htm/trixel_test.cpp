@@ -12,9 +12,12 @@
 
 #include "globe/geo/ellipsoid.h"
 #include "globe/htm/predicates.h"
+#include "tests/hard/directions.h"
 
 namespace globe::htm {
 namespace {
+
+using hard::random_direction;
 
 std::vector<Trixel> all_trixels(int level) {
   std::vector<Trixel> all;
@@ -25,11 +28,6 @@ std::vector<Trixel> all_trixels(int level) {
 
 Trixel random_trixel(std::mt19937_64& random, int level) {
   return {(kFirstRoot + random() % kRoots) << (2 * level) | (random() & ((1ULL << (2 * level)) - 1))};
-}
-
-dvec3 random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  return glm::normalize(dvec3{normal(random), normal(random), normal(random)});
 }
 
 TEST(Trixel, RootsAreThePublishedOnes) {

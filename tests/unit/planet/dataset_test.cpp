@@ -19,21 +19,21 @@
 namespace globe::planet {
 namespace {
 
-constexpr int kLevel = 8;
+constexpr int kDatasetLevel = 8;
 constexpr int kTile = 64;
 
 float sample(int d, int level, int i, int j) {
   return static_cast<float>(d * 1000 + level) + static_cast<float>(i) * 0.25F - static_cast<float>(j);
 }
 
-/// A planet with "height" to kLevel, "relief" stored below it, and "color", each sample telling its own
-/// place.
+/// A planet with "height" to kDatasetLevel, "relief" stored below it, and "color", each sample telling its
+/// own place.
 void write_planet(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   PlanetFile file;
   file.info = {"Test", "moon", "", geo::kMoon, "sphere", kTile, {}, {"made by hand"}};
-  file.layers = {{{"height", kLevel, 1, "float32", -1, 1}, kLevel, {}},
-                 {{"relief", kLevel, 1, "float32", -1, 1}, kLevel - 1, {}},
+  file.layers = {{{"height", kDatasetLevel, 1, "float32", -1, 1}, kDatasetLevel, {}},
+                 {{"relief", kDatasetLevel, 1, "float32", -1, 1}, kDatasetLevel - 1, {}},
                  {{"color", 3, 3, "uint8", 0, 1}, 3, {}}};
   for (StoredLayer& layer : file.layers) {
     for (int d = 0; d < kDiamonds; ++d) {
@@ -83,7 +83,7 @@ TEST(Dataset, GivesBackEverySampleOfEveryLevelAcrossTileBorders) {
   write_planet(folder.path());
   const Dataset dataset = Dataset::open(folder.path(), 1 << 20);
   for (int d = 0; d < kDiamonds; ++d) {
-    for (int level = kLevel; level >= 0; --level) {
+    for (int level = kDatasetLevel; level >= 0; --level) {
       const int side = nodes_per_side(level) + 1;
       for (const int first : {0, side / 3}) {
         const int count = side - first;
@@ -116,12 +116,12 @@ TEST(Dataset, FindsTheFinestReliefInTheHeights) {
   write_planet(folder.path());
   const Dataset dataset = Dataset::open(folder.path(), 1 << 20);
   ASSERT_NE(dataset.layer("relief"), nullptr);
-  EXPECT_EQ(dataset.layer("relief")->level, kLevel);
+  EXPECT_EQ(dataset.layer("relief")->level, kDatasetLevel);
   float out = 0;
-  dataset.read("relief", 2, kLevel, 5, 7, 1, 1, &out);
-  EXPECT_EQ(out, sample(2, kLevel, 5, 7));
-  dataset.read("relief", 2, kLevel - 1, 5, 7, 1, 1, &out);
-  EXPECT_EQ(out, sample(2, kLevel - 1, 5, 7));
+  dataset.read("relief", 2, kDatasetLevel, 5, 7, 1, 1, &out);
+  EXPECT_EQ(out, sample(2, kDatasetLevel, 5, 7));
+  dataset.read("relief", 2, kDatasetLevel - 1, 5, 7, 1, 1, &out);
+  EXPECT_EQ(out, sample(2, kDatasetLevel - 1, 5, 7));
 }
 
 TEST(Dataset, GivesColorsAsBytesAndAsFractions) {
@@ -163,8 +163,9 @@ TEST(Dataset, ReadsTheSameFromManyThreadsThroughATinyCache) {
         const int i = k * 37 % 200;
         const int j = k * 101 % 200;
         std::vector<float> out(40 * 40);
-        dataset.read("height", d, kLevel, i, j, 40, 40, out.data());
-        if (out.front() != sample(d, kLevel, i, j) || out.back() != sample(d, kLevel, i + 39, j + 39))
+        dataset.read("height", d, kDatasetLevel, i, j, 40, 40, out.data());
+        if (out.front() != sample(d, kDatasetLevel, i, j) ||
+            out.back() != sample(d, kDatasetLevel, i + 39, j + 39))
           ++wrong[t];
       }
     });
@@ -188,8 +189,8 @@ TEST(Dataset, ReadsFromThreadsThatOutliveTheDatasetsBefore) {
         for (int k = 0; k < 20; ++k) {
           const int i = (k * 37 + 50 * static_cast<int>(t)) % 250;
           float out = 0;
-          dataset->read("height", k % kDiamonds, kLevel, i, k * 11, 1, 1, &out);
-          wrong[t] += out != sample(k % kDiamonds, kLevel, i, k * 11);
+          dataset->read("height", k % kDiamonds, kDatasetLevel, i, k * 11, 1, 1, &out);
+          wrong[t] += out != sample(k % kDiamonds, kDatasetLevel, i, k * 11);
         }
         turn.arrive_and_wait();
       }
@@ -247,7 +248,7 @@ TEST(Dataset, ReportsATileThatCannotBeDecoded) {
   file.close();
   const Dataset dataset = Dataset::open(folder.path(), 1 << 20);
   const std::string message = message_of([&] {
-    for (int level = 0; level <= kLevel; ++level) {
+    for (int level = 0; level <= kDatasetLevel; ++level) {
       const int side = nodes_per_side(level) + 1;
       std::vector<float> out(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
       dataset.read("height", 0, level, 0, 0, side, side, out.data());

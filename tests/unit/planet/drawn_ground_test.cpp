@@ -9,11 +9,14 @@
 
 #include "globe/htm/trixel.h"
 #include "globe/planet/interpolation.h"
+#include "tests/hard/directions.h"
 #include "tests/node_planet.h"
 #include "tests/temporary_folder.h"
 
 namespace globe::planet {
 namespace {
+
+using hard::random_direction;
 
 constexpr double kError_m = 1e-8;
 
@@ -27,12 +30,7 @@ class DrawnGroundTest : public testing::Test {
   }
 };
 
-dvec3 random_direction(std::mt19937_64& random) {
-  std::normal_distribution<> normal;
-  return glm::normalize(dvec3{normal(random), normal(random), normal(random)});
-}
-
-Node random_node(std::mt19937_64& random, int level) {
+Node any_node(std::mt19937_64& random, int level) {
   std::uniform_int_distribution<> coordinate(0, nodes_per_side(level));
   return {static_cast<int>(random() % 4), level, coordinate(random), coordinate(random)};
 }
@@ -46,7 +44,7 @@ TEST_F(DrawnGroundTest, AtANodeIsTheNodesOwnHeight) {
       for (int k = 0; k < 60; ++k) {
         const Node node = k < 4   ? Node{k, level, 0, 0}
                           : k < 8 ? Node{k - 4, level, n, 0}
-                                  : random_node(random, level);
+                                  : any_node(random, level);
         EXPECT_NEAR(drawn_ground(*planet, node_direction(node), level).height_m, planet->height(node),
                     10 * kError_m)
             << level << ' ' << node.i << ' ' << node.j;
@@ -102,7 +100,7 @@ TEST_F(DrawnGroundTest, IsContinuousAcrossEdgesAndCorners) {
     const auto planet = surface(ellipsoid);
     for (int k = 0; k < 4000; ++k) {
       const int level = k % 7;
-      const Node node = k % 3 == 0 ? Node{k % 4, level, 0, 0} : random_node(random, level);
+      const Node node = k % 3 == 0 ? Node{k % 4, level, 0, 0} : any_node(random, level);
       const htm::Corners c = htm::corners(htm::trixel_at(node_direction(node), level));
       const double share = k % 5 == 0 ? 0.0 : std::uniform_real_distribution<>(0, 1)(random);
       const dvec3 on = glm::normalize((1 - share) * c[0] + share * c[1]);

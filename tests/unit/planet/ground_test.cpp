@@ -19,11 +19,11 @@ namespace {
 constexpr double kHighest = 9000.0;
 
 /// A node of level 20 in each kind of place the grid has.
-struct Spot {
+struct NamedNode {
   const char* name;
   Node node;
 };
-const std::array<Spot, 6> kSpots{{
+const std::array<NamedNode, 6> kNamedNodes{{
     {"inside a face", {1, 20, 300000, 200000}},
     {"the equator's edge between two trixels of one diamond", {2, 20, 400000, 648576}},
     {"an edge between two diamonds", {0, 20, 0, 700001}},
@@ -54,7 +54,7 @@ std::vector<TileId> tiles_around(const Node& node) {
 
 TEST(Ground, TilesAgreeBitForBitWhereverTheyHoldTheSameVertex) {
   const auto surface = Surface::builtin(1);
-  for (const Spot& spot : kSpots) {
+  for (const NamedNode& spot : kNamedNodes) {
     for (const int level : {7, 8, 9, 10, 11, 12, 14, 19, 20}) {
       std::map<std::array<int, 3>, std::array<float, kChannels + 2>> seen;
       int shared = 0;
@@ -114,7 +114,7 @@ TEST(Ground, HeightsDoNotDependOnTheOrderTilesAreVisitedIn) {
 
 TEST(Ground, ACoarseNodeKeepsItsHeightAtEveryFinerLevel) {
   const auto surface = Surface::builtin(1);
-  for (const Spot& spot : kSpots) {
+  for (const NamedNode& spot : kNamedNodes) {
     const Node coarse = at_level(spot.node, 6);
     const double height = surface->height(coarse);
     for (int level = 7; level <= 24; ++level) {
@@ -137,7 +137,7 @@ TEST(Ground, TheBuiltInPlanetIsItsOwnFunctionDownToItsDataLevel) {
 }
 
 TEST(Ground, NodeDirectionsOfATileAreTheNodesOwnBitForBit) {
-  for (const Spot& spot : kSpots) {
+  for (const NamedNode& spot : kNamedNodes) {
     for (const int level : {3, 9, 20}) {
       const TileId id = tile_of(at_level(spot.node, level));
       const TileValues<dvec3> directions = node_directions(id);

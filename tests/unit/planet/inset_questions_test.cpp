@@ -18,18 +18,18 @@
 namespace globe::planet {
 namespace {
 
-constexpr int kBaseLevel = 6;
-constexpr int kInsetLevel = 9;
+constexpr int kCoarseLevel = 6;
+constexpr int kFineLevel = 9;
 
 class InsetQuestions : public testing::Test {
  protected:
   InsetQuestions() {
-    tests::write_node_planet(scratch_ / "planet", kBaseLevel, geo::kWgs84,
+    tests::write_node_planet(scratch_ / "planet", kCoarseLevel, geo::kWgs84,
                              tests::hashed_heights(1, 0.0, 2000.0));
     // One over an octahedron corner, one inside a diamond.
     tests::add_inset(scratch_ / "planet",
-                     {"corner", kInsetLevel, corner_, 0.05, 0.12, tests::hashed_heights(2, 3000.0, 5000.0)});
-    tests::add_inset(scratch_ / "planet", {"inside", kInsetLevel - 1, inside_, 0.05, 0.12,
+                     {"corner", kFineLevel, corner_, 0.05, 0.12, tests::hashed_heights(2, 3000.0, 5000.0)});
+    tests::add_inset(scratch_ / "planet", {"inside", kFineLevel - 1, inside_, 0.05, 0.12,
                                            tests::hashed_heights(3, -4000.0, -2000.0)});
     surface_ = tests::open_surface(scratch_ / "planet");
   }
@@ -44,13 +44,13 @@ TEST_F(InsetQuestions, SummaryFindsTheExtremesOfEveryNodeOfTheFinestData) {
   const htm::Cone region(geo::normal_from_degrees(15.0, 110.0), 34.0);
   const auto found = summarize(*surface_, region, std::nullopt);
   ASSERT_TRUE(found.has_value());
-  EXPECT_EQ(found->level, kInsetLevel);
+  EXPECT_EQ(found->level, kFineLevel);
   double low = 1e9, high = -1e9;
-  const int n = nodes_per_side(kInsetLevel);
+  const int n = nodes_per_side(kFineLevel);
   for (int d = 0; d < kDiamonds; ++d) {
     for (int j = 0; j <= n; ++j) {
       for (int i = 0; i <= n; ++i) {
-        const Node node{d, kInsetLevel, i, j};
+        const Node node{d, kFineLevel, i, j};
         if (!region.contains(node_direction(node))) continue;
         const double height = surface_->data_height(node);
         low = std::min(low, height);
@@ -80,7 +80,7 @@ TEST_F(InsetQuestions, SummaryFindsTheExtremesOfEveryNodeOfTheFinestData) {
 
 TEST_F(InsetQuestions, SummaryOfACoarseLevelTakesItsNodesWithTheInsets) {
   const htm::Cone region(corner_, 11.0);
-  for (const int level : {kBaseLevel - 1, kBaseLevel}) {
+  for (const int level : {kCoarseLevel - 1, kCoarseLevel}) {
     const auto found = summarize(*surface_, region, level);
     ASSERT_TRUE(found.has_value());
     double low = 1e9, high = -1e9;
@@ -152,8 +152,8 @@ TEST_F(InsetQuestions, ProfileByTheDataHasNoStepAtARim) {
     steepest = std::max(steepest, std::abs(samples[k].height_m - samples[k - 1].height_m));
   // 70 m a sample: nodes 20 km apart, up to 2000 m (their own) and 5000 m (the blend over 0.07) different.
   EXPECT_LT(steepest, 70.0 / 12000.0 * 2000.0 + 70.0 / 440000.0 * 1.5 * 5000.0 + 1.0);
-  EXPECT_EQ(data_levels_along(*surface_, a, b).coarsest, kBaseLevel);
-  EXPECT_EQ(data_levels_along(*surface_, a, b).finest, kInsetLevel);
+  EXPECT_EQ(data_levels_along(*surface_, a, b).coarsest, kCoarseLevel);
+  EXPECT_EQ(data_levels_along(*surface_, a, b).finest, kFineLevel);
 }
 
 }  // namespace

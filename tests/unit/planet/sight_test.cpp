@@ -1,4 +1,5 @@
 #include "globe/planet/sight.h"
+#include "globe/base/angles.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -11,7 +12,6 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <memory>
-#include <numbers>
 #include <random>
 #include <vector>
 
@@ -24,7 +24,6 @@ namespace {
 
 using geo::Geodetic;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRadius = 6371008.8;
 constexpr geo::Ellipsoid kSphere{kRadius, 0.0};
 

@@ -17,7 +17,7 @@ namespace {
 
 using tests::TemporaryFolder;
 
-constexpr int kLevel = 6;
+constexpr int kVerifiedLevel = 6;
 
 Verification verify(const std::filesystem::path& folder) {
   return verify_planet(folder, std::size_t{8} << 20, [](const std::string&, double) {});
@@ -25,7 +25,7 @@ Verification verify(const std::filesystem::path& folder) {
 
 std::vector<std::string> damage(const std::filesystem::path& folder) { return verify(folder).damage; }
 
-void write_sound_planet(const std::filesystem::path& folder, int level = kLevel) {
+void write_sound_planet(const std::filesystem::path& folder, int level = kVerifiedLevel) {
   tests::write_node_planet(folder, level, geo::kMoon, tests::hashed_heights(11, -3000.0, 5000.0));
 }
 
@@ -68,7 +68,7 @@ Change put(int level, int i, int j, float value, int channels = 1) {
 }
 
 TEST(VerifyPlanet, FindsNothingInASoundPlanet) {
-  for (const int level : {0, 1, 2, 3, kLevel, 8}) {
+  for (const int level : {0, 1, 2, 3, kVerifiedLevel, 8}) {
     const TemporaryFolder folder;
     write_sound_planet(folder.path(), level);
     const Verification found = verify(folder.path());
@@ -113,7 +113,7 @@ TEST(VerifyPlanet, FindsACoarseHeightThatIsNotTheFineOne) {
 TEST(VerifyPlanet, FindsAFineHeightOutsideItsRange) {
   const TemporaryFolder folder;
   write_sound_planet(folder.path());
-  alter(folder.path(), "height", 0, put(kLevel, 51, 21, 9999.0F));
+  alter(folder.path(), "height", 0, put(kVerifiedLevel, 51, 21, 9999.0F));
   const std::vector<std::string> found = damage(folder.path());
   ASSERT_EQ(found.size(), 2U);
   EXPECT_TRUE(found[0].starts_with("height: its heights span -")) << found[0];
@@ -125,7 +125,7 @@ TEST(VerifyPlanet, FindsAFineHeightOutsideItsRange) {
 TEST(VerifyPlanet, FindsARangeThatIsTooNarrowAtEveryLevel) {
   const TemporaryFolder folder;
   write_sound_planet(folder / "sound");
-  for (int level = block_level(kLevel); level >= 0; --level) {
+  for (int level = block_level(kVerifiedLevel); level >= 0; --level) {
     const std::filesystem::path altered = folder / std::to_string(level);
     std::filesystem::copy(folder / "sound", altered);
     alter(altered, "height_range", 2, put(level, 0, 0, 4900.0F, 2));

@@ -8,12 +8,12 @@
 #include <numbers>
 #include <random>
 
-namespace shader {
 namespace {
+namespace shader {
 using namespace glm;
 #include "shaders/lib/projection.glsl"
-}  // namespace
 }  // namespace shader
+}  // namespace
 
 namespace globe::render {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "globe/base/angles.h"
 #include "globe/base/error.h"
 #include "globe/geo/geodesic_circle.h"
 #include "globe/htm/complement.h"
@@ -21,6 +21,7 @@
 #include "globe/region/map_polygon.h"
 #include "globe/search/region_touch.h"
 #include "globe/search/wkb.h"
+#include "tests/hard/directions.h"
 
 namespace globe::search {
 namespace {
@@ -28,10 +29,10 @@ namespace {
 using geo::Geodetic;
 using geo::Geometry;
 using geo::normal_from_degrees;
+using hard::random_direction;
 using htm::dvec3;
 
-constexpr double kRadians = std::numbers::pi / 180.0;
-const GeographicLib::Geodesic kEarth(geo::kWgs84.a, geo::kWgs84.f);
+const GeographicLib::Geodesic kGeodesic(geo::kWgs84.a, geo::kWgs84.f);
 
 Geometry line(std::vector<Geodetic> places) {
   Geometry geometry;
@@ -67,11 +68,6 @@ double angle_to_arc(const dvec3& u, const dvec3& a, const dvec3& b) {
   return between ? std::abs(std::asin(glm::dot(u, normal))) : std::min(angle(u, a), angle(u, b));
 }
 
-dvec3 random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  return glm::normalize(dvec3{normal(random), normal(random), normal(random)});
-}
-
 TEST(RegionTouch, AnArcTouchesAConeExactlyWhenItComesAsNear) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -86,7 +82,7 @@ TEST(RegionTouch, AnArcTouchesAConeExactlyWhenItComesAsNear) {
     for (const double side : {-kAside, kAside}) {
       const double radius = distance + side;
       if (radius < 0.0) continue;
-      EXPECT_EQ(search::touches(htm::Cone(center, radius / kRadians), a, b), side > 0.0)
+      EXPECT_EQ(search::touches(htm::Cone(center, radius / kDegree), a, b), side > 0.0)
           << k << ": length " << length << ", distance " << distance;
     }
   }
@@ -94,7 +90,7 @@ TEST(RegionTouch, AnArcTouchesAConeExactlyWhenItComesAsNear) {
 
 TEST(RegionTouch, AnArcAsksForItsHighestPlaceOnly) {
   const dvec3 a = normal_from_degrees(50, 0), b = normal_from_degrees(50, 60);
-  const double top = std::atan(std::tan(50 * kRadians) / std::cos(30 * kRadians)) / kRadians;
+  const double top = std::atan(std::tan(50 * kDegree) / std::cos(30 * kDegree)) / kDegree;
   constexpr double kAside_deg = 1e-10;
   EXPECT_TRUE(search::touches(region::LatLonBox(10, top - kAside_deg, 50, 60), a, b));
   EXPECT_FALSE(search::touches(region::LatLonBox(10, top + kAside_deg, 50, 60), a, b));
@@ -157,10 +153,10 @@ TEST(Shape, MeetsEveryKindOfRegionAndTheirComplements) {
 TEST(Shape, HoldsThePoleAndCrossesTheAntimeridian) {
   const Geometry cap = polygon({{{80, 0}, {80, 90}, {80, 180}, {80, -90}}});
   EXPECT_TRUE(touches(cap, cone(90, 0, 0)));
-  EXPECT_EQ(Shape(cap).nearest(kEarth, {90, 12, 0}).distance_m, 0.0);
+  EXPECT_EQ(Shape(cap).nearest(kGeodesic, {90, 12, 0}).distance_m, 0.0);
   const Geometry strait = line({{0, 179}, {0, -179}});
   EXPECT_TRUE(touches(strait, cone(0.5, 180, 0.6)));
-  EXPECT_NEAR(Shape(strait).nearest(kEarth, {1, 180, 0}).distance_m,
+  EXPECT_NEAR(Shape(strait).nearest(kGeodesic, {1, 180, 0}).distance_m,
               geo::geodesic_distance_m(geo::kWgs84, {1, 180, 0}, {0, 180, 0}), 1e-7);
 }
 
@@ -221,7 +217,7 @@ TEST(Shape, TheNearestPlaceOfALineIsFound) {
     if (k % 10 == 2) from = random_direction(random);
     const Geometry geometry = line(places);
     const Geodetic at = geo::degrees_from_normal(from);
-    const Nearest nearest = Shape(geometry).nearest(kEarth, at);
+    const Nearest nearest = Shape(geometry).nearest(kGeodesic, at);
     worst = std::max(worst, std::abs(nearest.distance_m - nearest_by_looking_m(geometry, at)));
     EXPECT_LE(nearest.distance_m, nearest_by_looking_m(geometry, at) + 1e-7) << k;
     EXPECT_EQ(nearest.distance_m, geo::geodesic_distance_m(geo::kWgs84, at, nearest.at)) << k;
@@ -231,7 +227,7 @@ TEST(Shape, TheNearestPlaceOfALineIsFound) {
 
 TEST(Shape, OfOnePlaceIsAPoint) {
   Geometry still = line({{10, 20}, {10, 20}});
-  EXPECT_EQ(Shape(still).nearest(kEarth, {10, 21, 0}).distance_m,
+  EXPECT_EQ(Shape(still).nearest(kGeodesic, {10, 21, 0}).distance_m,
             geo::geodesic_distance_m(geo::kWgs84, {10, 21, 0}, {10, 20, 0}));
   EXPECT_TRUE(touches(still, cone(10, 20, 0)));
   EXPECT_FALSE(Shape(still).cover().empty());
