@@ -24,9 +24,9 @@
 namespace app {
 namespace {
 
-/// Bytes that the planet keeps of what is drawn: a quarter of what it keeps elsewhere, for frames take their
+/// Bytes that the planet keeps of what is drawn: an eighth of what it keeps elsewhere, for frames take their
 /// share.
-constexpr std::size_t kPlanetCache = globe::planet::Surface::kDefaultCache / 4;
+constexpr std::size_t kPlanetCache = globe::planet::Surface::kDefaultCache / 8;
 
 struct AccuracyOptions {
   std::string folder;

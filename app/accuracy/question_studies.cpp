@@ -21,9 +21,6 @@ namespace planet = globe::planet;
 using globe::geo::Geodetic;
 using globe::htm::dvec3;
 
-/// Bytes that the ground asked about keeps: what all questions of a study need at one level, and more.
-constexpr std::size_t kGroundCache = planet::Surface::kDefaultCache / 4;
-
 std::string text_of(const PlacePair& pair) {
   char text[96];
   std::snprintf(text, sizeof text, "%.6f,%.6f to %.6f,%.6f", pair.a.lat_deg, pair.a.lon_deg, pair.b.lat_deg,
@@ -33,7 +30,7 @@ std::string text_of(const PlacePair& pair) {
 
 /// A setting: what `ask` answers of each subject against the truth, and how long it takes.
 template <typename Subject, typename Ask, typename Words>
-void add(Study& study, std::string name, bool is_default,
+void add(Study& study, std::string name, bool is_default, const Ground& ground,
          const std::shared_ptr<std::vector<Subject>>& subjects, const std::vector<double>& truth,
          const Ask& ask, const Words& words) {
   ErrorSum sum;
@@ -47,7 +44,7 @@ void add(Study& study, std::string name, bool is_default,
         keep(all);
       },
       1e6);
-  study.settings.push_back({std::move(name), sum.figure(), cost, is_default});
+  study.settings.push_back({std::move(name), sum.figure(), cost, is_default, {}, release_of(ground)});
 }
 
 }  // namespace
@@ -56,7 +53,7 @@ Study summary_study(const Ground& ground, const std::vector<dvec3>& centres, int
   const auto regions = std::make_shared<std::vector<globe::htm::Cone>>();
   for (const dvec3& centre : centres) regions->emplace_back(centre, 0.5 * kConeRadius_deg);
   const auto highest = [ground](const globe::htm::Cone& cone, int level) {
-    return planet::summarize(*ground, cone, level)->highest.height_m;
+    return planet::summarize(*ground->get().surface, cone, level)->highest.height_m;
   };
   std::vector<double> truth;
   for (const auto& cone : *regions) truth.push_back(highest(cone, finest));
@@ -72,8 +69,8 @@ Study summary_study(const Ground& ground, const std::vector<dvec3>& centres, int
       {}};
   for (int level = finest - 6; level < finest; ++level) {
     add(
-        study, "level " + std::to_string(level), level == ground->data_level(), regions, truth,
-        [=](const globe::htm::Cone& cone) { return highest(cone, level); },
+        study, "level " + std::to_string(level), level == ground->get().surface->data_level(), ground,
+        regions, truth, [=](const globe::htm::Cone& cone) { return highest(cone, level); },
         [](std::size_t k) { return "cone " + std::to_string(k); });
   }
   return study;
@@ -86,7 +83,7 @@ Study sight_study(const Ground& ground, const std::vector<PlacePair>& pairs, int
     pair.b.h_m += kEye_m;
   }
   const auto clearance = [ground](const PlacePair& pair, int level) {
-    return planet::sight(*ground, pair.a, pair.b, {.level = level}).lowest.clearance_m;
+    return planet::sight(*ground->get().surface, pair.a, pair.b, {.level = level}).lowest.clearance_m;
   };
   std::vector<double> truth;
   for (const PlacePair& pair : *eyes) truth.push_back(clearance(pair, finest));
@@ -101,8 +98,8 @@ Study sight_study(const Ground& ground, const std::vector<PlacePair>& pairs, int
       {}};
   for (int level = finest - 5; level < finest; ++level) {
     add(
-        study, "level " + std::to_string(level), level == ground->data_level(), eyes, truth,
-        [=](const PlacePair& pair) { return clearance(pair, level); },
+        study, "level " + std::to_string(level), level == ground->get().surface->data_level(), ground, eyes,
+        truth, [=](const PlacePair& pair) { return clearance(pair, level); },
         [&](std::size_t k) { return text_of((*eyes)[k]); });
   }
   return study;
@@ -112,8 +109,8 @@ Study profile_study(const Ground& ground, const std::vector<PlacePair>& pairs, i
   const auto ways = std::make_shared<std::vector<PlacePair>>(pairs);
   const auto highest = [ground, finest](const PlacePair& pair, std::size_t count) {
     double top = -1e9;
-    for (const planet::ProfileSample& sample :
-         planet::profile(*ground, pair.a, pair.b, count, finest, planet::Interpolation::kLinear))
+    for (const planet::ProfileSample& sample : planet::profile(*ground->get().surface, pair.a, pair.b, count,
+                                                               finest, planet::Interpolation::kLinear))
       top = std::max(top, sample.height_m);
     return top;
   };
@@ -129,10 +126,11 @@ Study profile_study(const Ground& ground, const std::vector<PlacePair>& pairs, i
               "m",
               "ms a profile",
               {}};
-  const std::size_t own = planet::profile_count(*ground, ways->front().a, ways->front().b, finest);
+  const std::size_t own =
+      planet::profile_count(*ground->get().surface, ways->front().a, ways->front().b, finest);
   for (const std::size_t count : {std::size_t{16}, std::size_t{64}, std::size_t{256}, own}) {
     add(
-        study, std::to_string(count) + " samples", count == own, ways, truth,
+        study, std::to_string(count) + " samples", count == own, ground, ways, truth,
         [=](const PlacePair& pair) { return highest(pair, count); },
         [&](std::size_t k) { return text_of((*ways)[k]); });
   }
@@ -140,11 +138,13 @@ Study profile_study(const Ground& ground, const std::vector<PlacePair>& pairs, i
 }
 
 std::vector<Study> question_studies(const Scope& scope) {
-  const auto ground = planet::Surface::builtin(1, kGroundCache);
+  const auto ground = remade<AskedGround>();
   const int finest = question_level(scope);
-  const std::vector<PlacePair> pairs = land_pairs(*ground, scope, finest);
-  return {summary_study(ground, cone_centres(scope), finest), sight_study(ground, pairs, finest),
-          profile_study(ground, pairs, finest)};
+  const std::vector<PlacePair> pairs = land_pairs(*ground->get().surface, scope, finest);
+  std::vector<Study> studies{summary_study(ground, cone_centres(scope), finest),
+                             sight_study(ground, pairs, finest), profile_study(ground, pairs, finest)};
+  ground->release();
+  return studies;
 }
 
 }  // namespace app::accuracy

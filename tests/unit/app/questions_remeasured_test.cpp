@@ -67,7 +67,8 @@ Long highest_node(const Surface& surface, const planet::Node& cell, int level, c
 }
 
 TEST(AccuracyRemeasured, HighestPlacesByLookingAtAllNodes) {
-  const auto surface = Surface::builtin(1);
+  const Ground planet = remade<AskedGround>();
+  const auto surface = planet->get().surface;
   const std::vector<dvec3> centres = some_of(cone_centres({}));
   const int finest = question_level({});
   std::vector<std::vector<Long>> highest(centres.size());  // centre, level
@@ -80,7 +81,7 @@ TEST(AccuracyRemeasured, HighestPlacesByLookingAtAllNodes) {
       highest[k].push_back(here);
     }
   });
-  const std::vector<Study> studies{summary_study(surface, centres, finest)};
+  const std::vector<Study> studies{summary_study(planet, centres, finest)};
   for (std::size_t n = 0; n < 6; ++n) {
     Second second;
     for (const std::vector<Long>& levels : highest) second.add(levels[n] - levels.back());
@@ -124,7 +125,8 @@ Long clearance(const Surface& surface, const PlacePair& eyes, int level) {
 }
 
 TEST(AccuracyRemeasured, LinesOfSightByPlacesAlongThem) {
-  const auto surface = Surface::builtin(1);
+  const Ground planet = remade<AskedGround>();
+  const auto surface = planet->get().surface;
   const int finest = question_level({});
   const std::vector<PlacePair> pairs = some_of(land_pairs(*surface, {}, finest));
   std::vector<PlacePair> eyes = pairs;
@@ -137,7 +139,7 @@ TEST(AccuracyRemeasured, LinesOfSightByPlacesAlongThem) {
     for (int level = finest - 5; level <= finest; ++level)
       clearances[k].push_back(clearance(*surface, eyes[k], level));
   });
-  const std::vector<Study> studies{sight_study(surface, pairs, finest)};
+  const std::vector<Study> studies{sight_study(planet, pairs, finest)};
   for (std::size_t n = 0; n < 5; ++n) {
     Second second;
     for (const std::vector<Long>& levels : clearances) second.add(levels[n] - levels.back());
@@ -148,7 +150,8 @@ TEST(AccuracyRemeasured, LinesOfSightByPlacesAlongThem) {
 }
 
 TEST(AccuracyRemeasured, ProfilesByTheExactGeodesicOfGeographicLib) {
-  const auto surface = Surface::builtin(1);
+  const Ground planet = remade<AskedGround>();
+  const auto surface = planet->get().surface;
   const int finest = question_level({});
   const GeographicLib::GeodesicExact geodesic(surface->ellipsoid().a, surface->ellipsoid().f);
   const std::vector<PlacePair> ways = some_of(land_pairs(*surface, {}, finest));
@@ -164,7 +167,7 @@ TEST(AccuracyRemeasured, ProfilesByTheExactGeodesicOfGeographicLib) {
     }
     return top;
   };
-  const std::vector<Study> studies{profile_study(surface, ways, finest)};
+  const std::vector<Study> studies{profile_study(planet, ways, finest)};
   const std::size_t own = planet::profile_count(*surface, ways.front().a, ways.front().b, finest);
   std::vector<Long> truth(ways.size());
   tbb::parallel_for(std::size_t{0}, ways.size(), [&](std::size_t k) { truth[k] = highest(ways[k], 10007); });
