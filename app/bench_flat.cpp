@@ -49,7 +49,8 @@ struct FlatWorld {
     const double half = 0.5 * kPatches * flat::kPatchCells * kSpacing;
     const double y = half * (-0.95 + 1.4 * (round % rounds) / rounds);
     const geo::Geodetic place = terrain->frame().geodetic_from_local({0.0, y, terrain->z_at(0.0, y) + 60.0});
-    return render::make_camera(surface->ellipsoid(), place, 0.0, -8.0, 60.0, double(kFlatWidth) / kFlatHeight);
+    return render::make_camera(surface->ellipsoid(), place, 0.0, -8.0, 60.0,
+                               double(kFlatWidth) / kFlatHeight);
   }
 
   int rounds;
@@ -62,7 +63,9 @@ struct FlatWorld {
 
 struct FlatRun {
   FlatRun(std::shared_ptr<FlatWorld> shared, const flat::GeomipmapSettings& settings)
-      : world(std::move(shared)), renderer(world->terrain, world->colors, settings), target(kFlatWidth, kFlatHeight) {
+      : world(std::move(shared)),
+        renderer(world->terrain, world->colors, settings),
+        target(kFlatWidth, kFlatHeight) {
     for (int k = 0; k < 3; ++k) renderer.draw(world->camera(k), world->sun, true, target);
     glFinish();
   }

@@ -56,7 +56,9 @@ struct World {
 /// budget of `globe fly`.
 struct FlightRun {
   FlightRun(std::shared_ptr<World> shared, const Settings& settings)
-      : world(std::move(shared)), renderer(world->surface, ground(settings)), target(kFlightWidth, kFlightHeight) {
+      : world(std::move(shared)),
+        renderer(world->surface, ground(settings)),
+        target(kFlightWidth, kFlightHeight) {
     renderer.warm_up(target);
     renderer.draw(world->camera(0), world->sun, true, target);
     glFinish();

@@ -181,7 +181,8 @@ Benchmark convert_bilinear() {
   for (std::size_t k = 0; k < heights.size(); ++k)
     heights[k] = static_cast<float>(std::sin(static_cast<double>(k) * 1e-3) * 3000.0);
   auto output = OIIO::ImageOutput::create("map.tif");
-  output->open((*folder / "map.tif").string(), OIIO::ImageSpec(kMapWidth, kMapHeight, 1, OIIO::TypeDesc::FLOAT));
+  output->open((*folder / "map.tif").string(),
+               OIIO::ImageSpec(kMapWidth, kMapHeight, 1, OIIO::TypeDesc::FLOAT));
   output->write_image(OIIO::TypeDesc::FLOAT, heights.data());
   output->close();
   converters::ConvertOptions options;

@@ -8,10 +8,10 @@
 namespace app {
 namespace {
 
-constexpr std::size_t kFrames = 15;    ///< whose median is the usual time
-constexpr double kUploadShare = 1.0 / 3.0;   ///< of drawing, for uploads
+constexpr std::size_t kFrames = 15;         ///< whose median is the usual time
+constexpr double kUploadShare = 1.0 / 3.0;  ///< of drawing, for uploads
 constexpr double kLeastShare = 1.0 / 16.0;  ///< of drawing, in any case
-constexpr double kFirst = 4.0;         ///< milliseconds, before any frame was drawn
+constexpr double kFirst = 4.0;              ///< milliseconds, before any frame was drawn
 
 }  // namespace
 
