@@ -176,6 +176,13 @@ struct PartOfPlanet {
 FlatRegion part_of(const std::shared_ptr<const globe::planet::Surface>& surface, const PartOfPlanet& part,
                    ProgressStyle style) {
   const HalfSize half{part.side_m / 2.0, part.side_m / 2.0};
+  // Its corners must lie within half a radius of the middle (TangentFrame::z_at).
+  const double widest_m = 0.7 * std::min(surface->ellipsoid().a, surface->ellipsoid().b());
+  if (part.side_m > widest_m) {
+    char text[96];
+    std::snprintf(text, sizeof text, "give a side of %.4g m or less", widest_m);
+    throw globe::Error(part.name, "is too wide for the planet", text);
+  }
   const double spacing = spacing_for(part.spacing_m, part.side_m / kPlanetPosts, half, part.name);
   const flat::TangentFrame frame(surface->ellipsoid(), part.center.lat_deg, part.center.lon_deg);
   const int level = std::clamp(static_cast<int>(std::ceil(std::log2(surface->root_edge() / spacing))), 0, 26);

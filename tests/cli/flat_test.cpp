@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/cli/make_planet.h"
 #include "tests/cli/refusals.h"
 #include "tests/cli/run_program.h"
 #include "tests/temporary_folder.h"
@@ -132,6 +133,23 @@ TEST(FlatInAGlobe, AFlightAndAPlanHaveItToo) {
   const auto plan = nlohmann::json::parse(planned.out);
   EXPECT_GT(plan["region"]["patches"], 10);
   EXPECT_GT(plan["region"]["triangles"], 100);
+}
+
+TEST(FlatInAGlobe, ARegionTooWideForASmallBodyIsRefusedInOneLine) {
+  const tests::TemporaryFolder folder;
+  const std::string planet = cli::make_planet(folder.path(), {"--ellipsoid", "200000,0"});
+  const std::string scene = folder.path() / "s.toml";
+  for (const auto& [side, status] : {std::pair("150 km", 1), std::pair("20 km", 0)}) {
+    std::ofstream(scene)
+        << "planet = 'planet'\n[camera]\nat = '10,20,30km'\n[region]\ncenter = '10,20'\nside = '" << side
+        << "'\nspacing = '" << (status == 0 ? "200 m" : "1 km") << "'\n";
+    const Outcome run = run_program({"shot", scene, "-o", folder.path() / (std::to_string(status) + ".png"),
+                                     "--size", "160x90", "--quiet"});
+    EXPECT_EQ(run.status, status) << run.err;
+    EXPECT_EQ(run.err.find("is too wide for the planet; give a side of 1.4e+05 m") != std::string::npos,
+              status == 1)
+        << run.err;
+  }
 }
 
 TEST(FlatInAGlobe, TheSameSceneIsARegionAlone) {
