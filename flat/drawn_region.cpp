@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "flat/box.h"
+#include "flat/cell.h"
 
 namespace globe::flat {
 namespace {
@@ -69,13 +70,7 @@ std::optional<double> DrawnRegion::hit_in(std::size_t patch, const clipmap::Ray&
     for (int i = 0; i < kPatchCells; ++i) {
       const dvec3 sw = post(column + i, row + j), se = post(column + i + 1, row + j);
       const dvec3 nw = post(column + i, row + j + 1), ne = post(column + i + 1, row + j + 1);
-      if (splits_north_east(i, j)) {
-        meet(sw, se, ne);
-        meet(sw, ne, nw);
-      } else {
-        meet(sw, se, nw);
-        meet(se, ne, nw);
-      }
+      split_cell(splits_north_east(i, j), sw, se, nw, ne, meet);
     }
   }
   return first;

@@ -2,6 +2,8 @@
 
 #include <glm/vec4.hpp>
 
+#include "flat/cell.h"
+
 namespace globe::flat {
 namespace {
 
@@ -123,13 +125,7 @@ std::vector<std::uint16_t> patch_indices(int shape) {
     for (int i = 0; i < n; ++i) {
       const std::uint16_t sw = vertex(i, j), se = vertex(i + 1, j), nw = vertex(i, j + 1),
                           ne = vertex(i + 1, j + 1);
-      if (splits_north_east(i, j)) {
-        add(sw, se, ne);
-        add(sw, ne, nw);
-      } else {
-        add(sw, se, nw);
-        add(se, ne, nw);
-      }
+      split_cell(splits_north_east(i, j), sw, se, nw, ne, add);
     }
   }
   return indices;

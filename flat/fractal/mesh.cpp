@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "flat/cell.h"
 #include "globe/base/error.h"
 
 namespace globe::flat::fractal {
@@ -26,15 +27,9 @@ std::vector<std::uint16_t> block_triangles(int cells, int level, unsigned edges)
   };
   for (int row = 0; row < side; ++row) {
     for (int column = 0; column < side; ++column) {
-      const std::uint16_t a = post(column, row), b = post(column + 1, row);
-      const std::uint16_t c = post(column, row + 1), d = post(column + 1, row + 1);
-      if ((column + row) % 2 == 0) {  // diagonals take turns, so that no direction stands out
-        add(a, b, d);
-        add(a, d, c);
-      } else {
-        add(a, b, c);
-        add(b, d, c);
-      }
+      // Diagonals take turns, so that no direction stands out.
+      split_cell((column + row) % 2 == 0, post(column, row), post(column + 1, row), post(column, row + 1),
+                 post(column + 1, row + 1), add);
     }
   }
   return triangles;
