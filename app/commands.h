@@ -37,5 +37,6 @@ void add_profile(CLI::App& program);
 void add_shot(CLI::App& program);
 void add_summary(CLI::App& program);
 void add_tune(CLI::App& program);
+void add_view(CLI::App& program);
 
 }  // namespace app

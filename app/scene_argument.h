@@ -15,6 +15,10 @@ namespace app {
 std::optional<globe::scene::Scene> take_scene(const CLI::App& command, CameraOptions& options);
 std::optional<globe::scene::Scene> take_scene(const CLI::App& command, ViewOptions& options);
 
+/// Has the scene ask for an effect as it usually is, in place of one that it has. Throws UsageError for one
+/// that there is not, Error when nothing is usual for it.
+void add_effect(globe::scene::Scene& scene, const std::string& name);
+
 /// The effects that it asks for; none without a scene. Throws what effects::make_effects throws, and Error
 /// for those of a lens in pictures that are taken without one.
 std::vector<globe::render::NamedEffect> effects_of(const std::optional<globe::scene::Scene>& scene,

@@ -50,6 +50,10 @@ void add_eye_options(CLI::App& command, CameraOptions& options) {
   add_optics_options(command, options.optics);
   command.add_option("--time", options.time,
                      "UTC date and time of the sun, ISO 8601 (default: 10:00 local solar time, 21 March)");
+  command
+      .add_option("--sun", options.overhead,
+                  "LAT,LON: where the sun stands in the zenith, in place of a time")
+      ->excludes("--time");
   command.add_option("--exaggeration", options.exaggeration, "draw heights so many times as high")
       ->capture_default_str()
       ->check(in_range(0.0, 100.0));
@@ -99,13 +103,20 @@ void add_drawing_options(CLI::App& command, ViewOptions& options) {
           "--window", options.window,
           "how vertices lie in GPU memory: plain squares; or hexagon, 6 % less in all, the same picture")
       ->capture_default_str();
+  command.add_option("--with", options.with,
+                     "an effect as it usually is, besides those of a scene: sea, clouds, atmosphere, ...");
+  command.add_option("--without", options.without, "an effect of the scene that is left out");
+}
+
+void add_look_options(CLI::App& command, ViewOptions& options) {
+  command.add_flag("--wireframe", options.wireframe, "draw the triangles");
+  command.add_option("--show", options.show, "levels, patches, normals or depth")
+      ->check(CLI::IsMember({"levels", "patches", "normals", "depth"}));
 }
 
 void add_output_options(CLI::App& command, ViewOptions& options) {
   command.add_option("-o,--output", options.output, "file to write")->required();
-  command.add_flag("--wireframe", options.wireframe, "draw the triangles");
-  command.add_option("--show", options.show, "levels, patches, normals or depth")
-      ->check(CLI::IsMember({"levels", "patches", "normals", "depth"}));
+  add_look_options(command, options);
   command.add_flag("--overwrite", options.overwrite, "replace existing output");
 }
 
@@ -208,6 +219,10 @@ Sunlight sun_for(const CameraOptions& options, const globe::planet::Surface& sur
 Sunlight sun_for(const CameraOptions& options, const std::string& body, const globe::geo::Geodetic& target) {
   namespace geo = globe::geo;
   const globe::scene::Sun& sun = options.sun;
+  if (!options.overhead.empty()) {
+    const geo::Geodetic over = globe::geo::parse_point(options.overhead).position;
+    return Sunlight(geo::normal_from_degrees(over.lat_deg, over.lon_deg));
+  }
   if (options.time.empty() && sun.overhead)
     return Sunlight(geo::normal_from_degrees(sun.overhead->lat_deg, sun.overhead->lon_deg));
   if (options.time.empty() && sun.position) {

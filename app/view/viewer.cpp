@@ -1,0 +1,175 @@
+#include "app/view/viewer.h"
+
+#include <epoxy/gl.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "app/frame_budget.h"
+#include "app/frame_clock.h"
+#include "app/view/hands.h"
+#include "app/view/overlay.h"
+#include "app/view/panels/list.h"
+
+namespace app::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kFastest = 1.0 / 60.0;  ///< seconds to a frame at least
+constexpr double kIdle = 0.5;            ///< seconds that it sleeps at most
+constexpr double kLongestStep = 0.1;     ///< seconds that may pass for the camera in a frame
+constexpr int kSettling = 3;             ///< frames that widgets take to answer
+constexpr float kWidth = 330.0f;         ///< of the overlay, in units of its text
+constexpr double kHigh = 2.0;            ///< radii above ground
+
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+void draw_notice(const Session& session) {
+  if (session.notice().empty()) return;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.5f * size.x, size.y - 24.0f}, ImGuiCond_Always, {0.5f, 1.0f});
+  ImGui::Begin("##notice", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::TextUnformatted(session.notice().c_str());
+  ImGui::End();
+}
+
+void draw_panels(Session& session) {
+  const float scale = session.window.content_scale();
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({10.0f * scale, 10.0f * scale}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSizeConstraints({kWidth * scale, 0.0f}, {kWidth * scale, size.y - 20.0f * scale});
+  ImGui::Begin("globe", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
+  for (const Panel& panel : panels()) {
+    const ImGuiTreeNodeFlags flags = panel.is_open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0;
+    if (ImGui::CollapsingHeader(panel.title, flags)) panel.draw(session);
+  }
+  ImGui::End();
+  draw_marks(session);
+}
+
+/// Something to start from: what is seen from high above takes little to load, and the rest comes over the
+/// frames that follow.
+void load_beginning(Session& session) {
+  Standpoint high = session.navigator.stand();
+  high.place.h_m = std::max(high.place.h_m, kHigh * session.scenery.ellipsoid().mean_radius());
+  session.canvas.draw(session.scenery, session.navigator.eye().camera(high), session.sunlight(),
+                      session.moment_s, true, 0.0);
+}
+
+class Loop {
+ public:
+  explicit Loop(Session& session)
+      : session_(session),
+        overlay_(Overlay::start(session.window)),
+        hands_(
+            session,
+            [this](glm::dvec2 pixel) {
+              return shows_widgets() && overlay_->has_pointer(session_.window, pixel);
+            },
+            [this] { return shows_widgets() && overlay_->has_keyboard(); }),
+        clock_(std::chrono::duration<double>(kFastest)) {
+    if (!overlay_) std::fputs("globe: warning: no overlay: Dear ImGui finds no libGL here\n", stderr);
+  }
+
+  std::size_t run(std::optional<int> frames) {
+    load_beginning(session_);
+    while (!session_.closes && !session_.window.close_requested()) {
+      if (frames && drawn_ >= static_cast<std::size_t>(*frames)) break;
+      const bool busy = frames || is_busy();
+      if (busy) {
+        session_.window.poll();
+      } else {
+        session_.window.wait(kIdle);
+      }
+      const std::vector<globe::gl::WindowEvent> events = session_.window.take_events();
+      if (!events.empty()) settling_ = kSettling;
+      hands_.take(events);
+      if (!adopt_size() || (!busy && events.empty() && !is_busy())) {
+        last_ = Clock::now();
+        continue;
+      }
+      if (!frames) clock_.await_turn();
+      frame();
+    }
+    if (session_.recorder) session_.toggle_recording();
+    return drawn_;
+  }
+
+ private:
+  bool shows_widgets() const { return overlay_ && (session_.shows_overlay || !session_.notice().empty()); }
+
+  bool is_busy() const {
+    const bool animated = session_.running && (session_.on_path || session_.scenery.is_animated());
+    return settling_ > 0 || drawn_ == 0 || session_.navigator.is_moving() || session_.navigator.is_held() ||
+           !session_.figures.last().complete || animated || session_.recorder || !session_.notice().empty();
+  }
+
+  /// False while there is nothing to draw into.
+  bool adopt_size() {
+    const glm::ivec2 size = session_.window.size();
+    if (size.x <= 0 || size.y <= 0) {
+      session_.window.wait(kIdle);
+      return false;
+    }
+    if (size == session_.canvas.size()) return true;
+    if (session_.recorder) session_.toggle_recording();
+    session_.canvas = Canvas(size, session_.scenery.options().samples);
+    session_.navigator.resize(glm::dvec2(size));
+    settling_ = kSettling;
+    return true;
+  }
+
+  void frame() {
+    const Clock::time_point now = Clock::now();
+    const double real = seconds_between(last_, now);
+    const double step = std::min(real, kLongestStep);
+    last_ = now;
+    hands_.drive();
+    session_.pass(step, real);
+    session_.navigator.advance(step);
+    const globe::render::FrameStats stats =
+        session_.canvas.draw(session_.scenery, session_.navigator.camera(), session_.sunlight(),
+                             session_.moment_s, false, budget_.uploads_ms());
+    session_.window.show(session_.canvas.picture().resolved_id(), session_.canvas.size());
+    glFinish();
+    const double took_ms = 1000.0 * seconds_between(now, Clock::now());
+    budget_.note(took_ms, stats.upload_ms);
+    session_.figures.add(took_ms, stats);
+    if (session_.recorder) session_.recorder->show(session_.canvas.picture(), session_.real_s());
+    if (shows_widgets()) draw_widgets();
+    session_.window.swap();
+    settling_ = std::max(settling_ - 1, 0);
+    ++drawn_;
+  }
+
+  void draw_widgets() {
+    session_.pointed = session_.shows_overlay ? session_.canvas.seen_at(session_.pointer) : std::nullopt;
+    overlay_->begin();
+    if (session_.shows_overlay) draw_panels(session_);
+    draw_notice(session_);
+    overlay_->end(session_.window);
+  }
+
+  Session& session_;
+  std::unique_ptr<Overlay> overlay_;
+  Hands hands_;
+  FrameClock clock_;
+  FrameBudget budget_{std::nullopt};
+  Clock::time_point last_ = Clock::now();
+  int settling_ = kSettling;
+  std::size_t drawn_ = 0;
+};
+
+}  // namespace
+
+std::size_t run_window(Session& session, std::optional<int> frames) { return Loop(session).run(frames); }
+
+}  // namespace app::view
