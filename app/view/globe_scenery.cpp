@@ -33,15 +33,15 @@ bool draws_sea(const std::string& effect) {
 }  // namespace
 
 GlobeScenery::GlobeScenery(std::string word, const ViewOptions& options,
-                           std::optional<globe::scene::Scene> scene)
-    : word_(std::move(word)), options_(options), scene_(std::move(scene)) {
+                           std::optional<globe::scene::Scene> scene,
+                           std::shared_ptr<const globe::planet::Surface> surface)
+    : word_(std::move(word)), options_(options), scene_(std::move(scene)), surface_(std::move(surface)) {
   for (const auto& entry : globe::effects::all_effects()) {
     const std::string name(entry.kind.name);
     const bool asked = scene_ && std::any_of(scene_->effects.begin(), scene_->effects.end(),
                                              [&](const auto& effect) { return effect.name == name; });
     effects_.push_back({name, asked, asked, asked});
   }
-  surface_ = open_planet(options_);
   region_ = region_of(scene_, surface_, options_.quiet);
   remake();
   add_choices();
@@ -166,9 +166,12 @@ std::vector<std::string> GlobeScenery::shot_words() const {
 }
 
 double GlobeScenery::ground_m(double lat_deg, double lon_deg) const {
-  return globe::planet::data_height_at(*surface_, globe::geo::normal_from_degrees(lat_deg, lon_deg),
-                                       globe::planet::Interpolation::kLinear)
-      .height_m;
+  if (!surface_->has_heights()) return 0.0;
+  const double ground =
+      globe::planet::data_height_at(*surface_, globe::geo::normal_from_degrees(lat_deg, lon_deg),
+                                    globe::planet::Interpolation::kLinear)
+          .height_m;
+  return surface_->has_sea() ? std::max(ground, 0.0) : ground;
 }
 
 std::string GlobeScenery::name() const {

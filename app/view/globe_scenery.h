@@ -14,8 +14,10 @@ namespace app::view {
 class GlobeScenery : public Scenery {
  public:
   /// A GL context must be current and stay so.
-  /// @param word  for the planet or scene, as it was given
-  GlobeScenery(std::string word, const ViewOptions& options, std::optional<globe::scene::Scene> scene);
+  /// @param word     for the planet or scene, as it was given
+  /// @param surface  that the options name
+  GlobeScenery(std::string word, const ViewOptions& options, std::optional<globe::scene::Scene> scene,
+               std::shared_ptr<const globe::planet::Surface> surface);
 
   const globe::geo::Ellipsoid& ellipsoid() const override { return surface_->ellipsoid(); }
   globe::render::SurfaceRenderer& renderer() override { return *renderer_; }
@@ -26,9 +28,6 @@ class GlobeScenery : public Scenery {
   std::vector<std::string> shot_words() const override;
   double ground_m(double lat_deg, double lon_deg) const override;
   std::string name() const override;
-
-  const std::shared_ptr<const globe::planet::Surface>& surface() const { return surface_; }
-  const globe::render::GlobeRenderer& globe() const { return *renderer_; }
 
  private:
   /// An effect as it was asked for at first, and as it is now.

@@ -40,12 +40,14 @@ double Navigator::above() const {
   return world_.height_above_ground(geo::ecef_from_geodetic(eye_.ellipsoid, stand_.place));
 }
 
-void Navigator::keep_clear() {
+void Navigator::keep_clear() { keep_clear_of(world_.height_above_ground); }
+
+void Navigator::keep_clear_of(const std::function<double(const dvec3&)>& height_above_ground) {
   stand_.place.h_m = std::min(stand_.place.h_m, kFarthest * eye_.ellipsoid.mean_radius());
   const double least = least_clearance(eye_.ellipsoid);
   // Where the ground is steep, once is not enough: the height above it is along the normal.
   for (int k = 0; k < 3; ++k) {
-    const double low = above();
+    const double low = height_above_ground(geo::ecef_from_geodetic(eye_.ellipsoid, stand_.place));
     if (low >= least) return;
     stand_.place.h_m += least - low;
   }

@@ -36,6 +36,8 @@ class Navigator {
   globe::render::Camera camera() const { return eye_.camera(stand_); }
   /// Puts it somewhere at once.
   void jump_to(const Standpoint& stand);
+  /// Raises it to least_clearance by heights above ground that are better than those at hand.
+  void keep_clear_of(const std::function<double(const glm::dvec3&)>& height_above_ground);
   /// Flies there; `to` is as it will stand.
   void fly_to(const Standpoint& to);
   /// Flies to where a place lies in the middle of the picture, so many metres off, seen from above by

@@ -23,7 +23,8 @@ std::string exact(double value) { return number_text(value, std::nullopt); }
 }  // namespace
 
 Session::Session(globe::gl::Window& shown_in, Scenery& shown, const SessionSettings& settings)
-    : window(shown_in),
+    : title(settings.title),
+      window(shown_in),
       scenery(shown),
       canvas(at_least_one(shown_in.size()), shown.options().samples),
       navigator({shown.ellipsoid(), shown.options().optics.fov_deg.value_or(60.0), glm::dvec2(canvas.size())},
@@ -106,10 +107,13 @@ std::string Session::shot_line(const std::string& output) const {
 void Session::save_picture() {
   attempt([&] {
     const std::filesystem::path file = free_name(folder, ".png");
+    navigator.keep_clear_of([&](const glm::dvec3& at) { return scenery.renderer().height_above_ground(at); });
     canvas.draw(scenery, navigator.camera(), sunlight_, moment_s, true, 0.0);
     const glm::ivec2 size = canvas.size();
     const std::vector<std::uint8_t> rgba = canvas.picture().read_rgba8();
     write_image(file, Picture{size.x, size.y, rgba}, false);
+    std::printf("%s\n", shot_line(file.string()).c_str());
+    std::fflush(stdout);
     tell("saved " + file.string());
   });
 }

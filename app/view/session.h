@@ -39,6 +39,7 @@ struct TimeBox {
 
 /// What `globe view` is told besides what it shows.
 struct SessionSettings {
+  std::string title;
   Standpoint start;
   double moment_s = 0;
   std::string time, overhead;            ///< of the sun, in place of the scenery's own; at most one
@@ -55,6 +56,7 @@ struct Session {
   /// Throws globe::Error for a database that is none.
   Session(globe::gl::Window& window, Scenery& scenery, const SessionSettings& settings);
 
+  std::string title;  ///< of the window
   globe::gl::Window& window;
   Scenery& scenery;
   Canvas canvas;
@@ -94,7 +96,8 @@ struct Session {
 
   /// The command that draws this very picture, for a shell.
   std::string shot_line(const std::string& output) const;
-  /// Draws the picture complete and writes it as a PNG beside others. Failures become notices.
+  /// Draws the picture complete and writes it as a PNG beside others, and its command to standard output.
+  /// Failures become notices.
   void save_picture();
   void toggle_recording();
 

@@ -13,7 +13,6 @@
 #include "app/view_options.h"
 #include "globe/base/error.h"
 #include "globe/gl/window.h"
-#include "globe/planet/scenic.h"
 
 namespace app {
 namespace {
@@ -47,9 +46,8 @@ void add_window_options(CLI::App& command, WindowOptions& options) {
 }
 
 /// Where a window begins that nothing is said of: before the whole globe.
-Standpoint whole_globe(const globe::planet::Surface& surface) {
-  const geo::Geodetic scenic = globe::planet::scenic_place(surface).place;
-  return {{scenic.lat_deg, scenic.lon_deg, kWholeGlobe * surface.ellipsoid().mean_radius()}, {0.0, -90.0}};
+Standpoint whole_globe(const geo::Ellipsoid& ellipsoid) {
+  return {{20.0, 10.0, kWholeGlobe * ellipsoid.mean_radius()}, {0.0, -90.0}};
 }
 
 void show_globe(WindowOptions options, const CLI::App& command) {
@@ -65,10 +63,13 @@ void show_globe(WindowOptions options, const CLI::App& command) {
   if (options.session.plays && !(scene && scene->path))
     throw globe::UsageError("--play", "there is no path to follow", "give a scene with a [path]");
 
-  globe::gl::Window window("globe - " + word, size.width, size.height);
-  view::GlobeScenery scenery(word, view, scene);
-  const auto& surface = scenery.surface();
+  const auto surface = open_planet(view);
+  sun_for(view, *surface, {});
+
   view::SessionSettings& session = options.session;
+  session.title = "globe - " + word;
+  globe::gl::Window window(session.title + " (loading)", size.width, size.height);
+  view::GlobeScenery scenery(word, view, scene, surface);
   session.folder = options.folder;
   session.shows_overlay = options.overlay == "on";
   session.time = view.time;
@@ -94,7 +95,7 @@ void show_globe(WindowOptions options, const CLI::App& command) {
         standpoint(options.stand, view, scene, surface, settings.max_level,
                    [&](const glm::dvec3& at) { return scenery.renderer().height_above_ground(at); });
   } else {
-    session.start = whole_globe(*surface);
+    session.start = whole_globe(surface->ellipsoid());
     if (!view.look.empty()) session.start.look = parse_look(view.look);
   }
 

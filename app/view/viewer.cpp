@@ -24,7 +24,7 @@ constexpr double kIdle = 0.5;            ///< seconds that it sleeps at most
 constexpr double kLongestStep = 0.1;     ///< seconds that may pass for the camera in a frame
 constexpr int kSettling = 3;             ///< frames that widgets take to answer
 constexpr float kWidth = 330.0f;         ///< of the overlay, in units of its text
-constexpr double kHigh = 2.0;            ///< radii above ground
+constexpr double kHigh = 9.0;            ///< radii above ground
 
 double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
@@ -146,8 +146,16 @@ class Loop {
     if (session_.recorder) session_.recorder->show(session_.canvas.picture(), session_.real_s());
     if (shows_widgets()) draw_widgets();
     session_.window.swap();
+    tell_loading(!stats.complete || session_.navigator.is_moving());
     settling_ = std::max(settling_ - 1, 0);
     ++drawn_;
+  }
+
+  /// The title says whether the picture will still change by itself.
+  void tell_loading(bool loading) {
+    if (loading == told_loading_) return;
+    told_loading_ = loading;
+    session_.window.set_title(session_.title + (loading ? " (loading)" : ""));
   }
 
   void draw_widgets() {
@@ -166,6 +174,7 @@ class Loop {
   Clock::time_point last_ = Clock::now();
   int settling_ = kSettling;
   std::size_t drawn_ = 0;
+  bool told_loading_ = true;
 };
 
 }  // namespace

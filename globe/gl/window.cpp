@@ -82,6 +82,9 @@ Window::Window(const std::string& title, int width, int height)
   renderer_ = text(GL_RENDERER);
   version_ = text(GL_VERSION);
   listen();
+  double x = 0, y = 0;
+  glfwGetCursorPos(window_.get(), &x, &y);
+  pointer_ = pixel_at({x, y});
 }
 
 Window::~Window() = default;
@@ -90,7 +93,8 @@ void Window::listen() {
   glfwSetWindowUserPointer(window_.get(), this);
   glfwSetCursorPosCallback(window_.get(), [](GLFWwindow* handle, double x, double y) {
     Window& window = window_of(handle);
-    window.events_.emplace_back(PointerMoved{window.pixel_at({x, y}), glfwGetTime()});
+    window.pointer_ = window.pixel_at({x, y});
+    window.events_.emplace_back(PointerMoved{window.pointer_, glfwGetTime()});
   });
   glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* handle, int button, int action, int modifiers) {
     if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
@@ -99,11 +103,11 @@ void Window::listen() {
                               : button == GLFW_MOUSE_BUTTON_RIGHT ? MouseButton::kRight
                                                                   : MouseButton::kMiddle;
     window.events_.emplace_back(
-        ButtonChanged{which, action == GLFW_PRESS, modifiers_of(modifiers), window.pointer(), glfwGetTime()});
+        ButtonChanged{which, action == GLFW_PRESS, modifiers_of(modifiers), window.pointer_, glfwGetTime()});
   });
   glfwSetScrollCallback(window_.get(), [](GLFWwindow* handle, double x, double y) {
     Window& window = window_of(handle);
-    window.events_.emplace_back(Scrolled{{x, y}, held_modifiers(handle), window.pointer()});
+    window.events_.emplace_back(Scrolled{{x, y}, held_modifiers(handle), window.pointer_});
   });
   glfwSetKeyCallback(window_.get(), [](GLFWwindow* handle, int key, int, int action, int modifiers) {
     window_of(handle).events_.emplace_back(
@@ -136,12 +140,6 @@ glm::dvec2 Window::pixel_at(glm::dvec2 place) const {
   if (units.x <= 0 || units.y <= 0) return place;
   // GLFW names a pixel by its upper left corner: its middle is meant.
   return (place + 0.5) * glm::dvec2(size()) / glm::dvec2(units);
-}
-
-glm::dvec2 Window::pointer() const {
-  glm::dvec2 at{0.0};
-  glfwGetCursorPos(window_.get(), &at.x, &at.y);
-  return pixel_at(at);
 }
 
 bool Window::close_requested() const { return glfwWindowShouldClose(window_.get()) == GLFW_TRUE; }

@@ -111,14 +111,14 @@ class Window {
   static std::unique_ptr<GLFWwindow, Destroy> open(const std::string& title, int width, int height);
   void listen();
   glm::dvec2 pixel_at(glm::dvec2 place) const;
-  glm::dvec2 pointer() const;
 
   std::unique_ptr<Library> library_;
   std::unique_ptr<GLFWwindow, Destroy> window_;
   std::unique_ptr<DebugLog> log_;
   std::string renderer_, version_;
   std::vector<WindowEvent> events_;
-  Windowed windowed_;  ///< where it goes back to from full screen
+  glm::dvec2 pointer_{0.0};  ///< at the event delivered last: GLFW tells where it is by now
+  Windowed windowed_;        ///< where it goes back to from full screen
 };
 
 }  // namespace globe::gl
