@@ -157,8 +157,7 @@ Plan plan_of(ExplainOptions options, const CLI::App& command) {
   const Standpoint stand =
       standpoint(options.stand, view, scene, surface, render_settings(view).max_level, above);
   const double aspect = static_cast<double>(size.width) / size.height;
-  const render::Camera camera =
-      optics.camera(ellipsoid, stand.place, stand.look.heading_deg, stand.look.pitch_deg, aspect);
+  const render::Camera camera = optics.camera(ellipsoid, stand.place, stand.look, aspect);
   whole.draw(camera, sun, seconds);
   plan.scene = file;
   plan.renderer = context.renderer();
@@ -198,7 +197,7 @@ Plan plan_of(ExplainOptions options, const CLI::App& command) {
       place.h_m += above_m - small.renderer.height_above_ground(geo::ecef_from_geodetic(ellipsoid, place));
       const double radius = ellipsoid.mean_radius();
       const double dip = std::acos(radius / (radius + std::max(place.h_m, 0.0))) * 180.0 / glm::pi<double>();
-      small.draw(Optics{}.camera(ellipsoid, place, stand.look.heading_deg, -dip, aspect), sun, seconds);
+      small.draw(Optics{}.camera(ellipsoid, place, {stand.look.heading_deg, -dip}, aspect), sun, seconds);
       std::vector<bool> active;
       for (const render::EffectState& state : small.renderer.effect_states())
         active.push_back(state.verdict.active);

@@ -134,8 +134,7 @@ struct Stage {
   const geo::Ellipsoid& ellipsoid() const { return region.terrain->frame().ellipsoid(); }
 
   render::Camera camera(const FlatView& view) const {
-    return optics.camera(ellipsoid(), view.place, view.look.heading_deg, view.look.pitch_deg,
-                         static_cast<double>(size.width) / size.height);
+    return optics.camera(ellipsoid(), view.place, view.look, static_cast<double>(size.width) / size.height);
   }
 
   geo::Geodetic stand_at(const Point& point, bool agl) const {
@@ -165,7 +164,7 @@ Start start_of(const FlatOptions& options, const std::optional<globe::scene::Sce
   Start start{std::nullopt, options.agl, std::nullopt};
   if (scene && scene->camera) {
     start = {scene->camera->at, options.agl || scene->camera->agl, std::nullopt};
-    if (scene->camera->look) start.look = {scene->camera->look->heading_deg, scene->camera->look->pitch_deg};
+    start.look = look_of(*scene->camera);
   }
   if (!options.at.empty()) start.at = parse_point(options.at);
   return start;

@@ -33,16 +33,17 @@ double least_clearance(const geo::Ellipsoid& ellipsoid) { return 2.0 * geo::smal
 
 Flight::Flight(const globe::clipmap::Settings& settings,
                std::shared_ptr<const globe::planet::Surface> surface, int max_level, const FlightEnd& from,
-               const FlightEnd& to, double heading_deg, double pitch_deg)
+               const FlightEnd& to, const Look& look)
     : settings_(settings), surface_(std::move(surface)), max_level_(max_level) {
   const globe::scene::FlightPath path(normal(from), from.above_ground_m, normal(to), to.above_ground_m,
-                                      surface_->ellipsoid().mean_radius(), heading_deg, pitch_deg);
-  plan_ = [path, from_ground = ground_below(from.place), to_ground = ground_below(to.place)](double t) {
+                                      surface_->ellipsoid().mean_radius(), look.heading_deg, look.pitch_deg);
+  plan_ = [path, roll_deg = look.roll_deg, from_ground = ground_below(from.place),
+           to_ground = ground_below(to.place)](double t) {
     const globe::scene::PathPoint point = path.at(t);
     geo::Geodetic place = geo::degrees_from_normal(point.u);
     const double e = globe::scene::FlightPath::eased(t);
     place.h_m = point.height_m + from_ground + (to_ground - from_ground) * e;
-    return Planned{{place, point.heading_deg, point.pitch_deg}, point.height_m};
+    return Planned{{place, {point.heading_deg, point.pitch_deg, roll_deg}}, point.height_m};
   };
   find_rises({0.0, 1.0});
 }
@@ -63,7 +64,7 @@ Flight::Flight(const globe::clipmap::Settings& settings,
     const globe::scene::CameraPath::View view = way.at(t * way.duration_s());
     geo::Geodetic place = geo::degrees_from_normal(view.u);
     place.h_m = view.ground_m + view.above_m;
-    return Planned{{place, view.heading_deg, view.pitch_deg}, view.above_m};
+    return Planned{{place, {view.heading_deg, view.pitch_deg, view.roll_deg}}, view.above_m};
   };
   find_rises(marks);
 }
@@ -76,13 +77,24 @@ double Flight::ground_below(geo::Geodetic place) const {
 }
 
 void Flight::find_rises(const std::vector<double>& marks) {
-  geo::Geodetic before = plan_(0.0).view.place;
   const int least = std::min(kPieceSamples, kMostSamples / static_cast<int>(marks.size()));
+  for (auto leg = marks.begin(); leg != marks.end();) {
+    auto end = std::adjacent_find(leg, marks.end());  // twice the same: a jump
+    if (end != marks.end()) ++end;
+    find_rises_of_leg({leg, end}, least);
+    leg = end;
+  }
+}
+
+void Flight::find_rises_of_leg(std::span<const double> marks, int least_samples) {
+  geo::Geodetic before = plan_(marks.front()).view.place;
   for (std::size_t piece = 0; piece + 1 < marks.size(); ++piece) {
     const double begin = marks[piece], end = marks[piece + 1];
-    const int samples = std::max({static_cast<int>(std::ceil(kFlightSamples * (end - begin))), least, 1});
+    const int samples =
+        std::max({static_cast<int>(std::ceil(kFlightSamples * (end - begin))), least_samples, 1});
     for (int k = 1; k <= samples; ++k) {
       const double t = k == samples ? end : begin + (end - begin) * k / samples;
+      if (t >= marks.back()) return;  // nothing is raised there, and it may be where a jump leads
       const Planned planned = plan_(t);
       const geo::Geodetic& place = planned.view.place;
       const globe::planet::Clearance keep{
@@ -90,8 +102,8 @@ void Flight::find_rises(const std::vector<double>& marks) {
           globe::clipmap::finest_level(settings_, surface_->root_edge(), planned.above_m, max_level_).level};
       const double raised = globe::planet::clear_way(*surface_, before, place, keep).back().h_m - place.h_m;
       before = place;
-      const double width =
-          std::min({kEasedShare, t, 1.0 - t, std::max(std::min(t - begin, end - t), kLeastEasedShare)});
+      const double width = std::min({kEasedShare, t - marks.front(), marks.back() - t,
+                                     std::max(std::min(t - begin, end - t), kLeastEasedShare)});
       if (raised > 0.0 && width > 0.0) rises_.push_back({t, width, raised});
     }
   }

@@ -2,8 +2,10 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "app/optics.h"
 #include "globe/clipmap/settings.h"
 #include "globe/planet/surface.h"
 #include "globe/scene/scene.h"
@@ -23,12 +25,13 @@ struct FlightEnd {
 /// ground's height interpolated along. Where mountains stand in the way the flight is raised: by a smooth
 /// rise that begins and ends a twelfth of its time away from them, so far that it keeps a quarter of its own
 /// height above them. A path's places themselves are raised only where such ground is within a quarter of
-/// that time. Nowhere is it nearer to the ground than least_clearance.
+/// that time. Nothing of it reaches over a jump. Nowhere is it nearer to the ground than least_clearance.
 class Flight {
  public:
   /// @param max_level  finest level of triangles
+  /// @param look       at its end
   Flight(const globe::clipmap::Settings& settings, std::shared_ptr<const globe::planet::Surface> surface,
-         int max_level, const FlightEnd& from, const FlightEnd& to, double heading_deg, double pitch_deg);
+         int max_level, const FlightEnd& from, const FlightEnd& to, const Look& look);
 
   /// Throws globe::Error when all places of the path are one.
   Flight(const globe::clipmap::Settings& settings, std::shared_ptr<const globe::planet::Surface> surface,
@@ -36,8 +39,7 @@ class Flight {
 
   struct View {
     globe::geo::Geodetic place;
-    double heading_deg = 0;
-    double pitch_deg = 0;
+    Look look;
   };
 
   /// @param t     share of the flight's time, [0, 1]
@@ -60,6 +62,7 @@ class Flight {
 
   double ground_below(globe::geo::Geodetic place) const;
   void find_rises(const std::vector<double>& marks);
+  void find_rises_of_leg(std::span<const double> marks, int least_samples);
   double raised_by(double t) const;
 
   globe::clipmap::Settings settings_;

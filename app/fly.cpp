@@ -25,6 +25,7 @@
 #include "app/progress.h"
 #include "app/records.h"
 #include "app/scene_argument.h"
+#include "app/standing_camera.h"
 #include "app/view_options.h"
 #include "globe/base/error.h"
 #include "globe/gl/context.h"
@@ -113,8 +114,7 @@ Planned flight_between(const FlyOptions& options, const std::optional<globe::sce
     to = end_of(parse_point(options.to), view.agl, final_height, renderer, ellipsoid);
   } else if (scene && scene->camera) {
     to = end_of(scene->camera->at, view.agl || scene->camera->agl, final_height, renderer, ellipsoid);
-    if (view.look.empty() && scene->camera->look)
-      look = {scene->camera->look->heading_deg, scene->camera->look->pitch_deg};
+    if (view.look.empty()) look = look_of(*scene->camera).value_or(look);
   } else {
     const globe::planet::ScenicView scenic = globe::planet::scenic_place(*surface);
     to = {scenic.place, final_height};
@@ -124,7 +124,7 @@ Planned flight_between(const FlyOptions& options, const std::optional<globe::sce
       options.from == "orbit"
           ? FlightEnd{to.place, kOrbit * ellipsoid.mean_radius() / geo::kWgs84.mean_radius()}
           : end_of(parse_point(options.from), view.agl, final_height, renderer, ellipsoid);
-  return {{clipmap_settings(view), surface, max_level, from, to, look.heading_deg, look.pitch_deg}, to.place};
+  return {{clipmap_settings(view), surface, max_level, from, to, look}, to.place};
 }
 
 void run(FlyOptions options, const CLI::App& command) {
@@ -175,8 +175,7 @@ void run(FlyOptions options, const CLI::App& command) {
   const double aspect = static_cast<double>(size.width) / size.height;
   const bool look_is_fixed = along_path && !view.look.empty();
   const auto camera_at = [&](const Flight::View& at) {
-    const Look look = look_is_fixed ? parse_look(view.look) : Look{at.heading_deg, at.pitch_deg};
-    return optics.camera(ellipsoid, at.place, look.heading_deg, look.pitch_deg, aspect);
+    return optics.camera(ellipsoid, at.place, look_is_fixed ? parse_look(view.look) : at.look, aspect);
   };
 
   FrameSink sink({view.output, size.width, size.height, options.fps, view.overwrite});

@@ -61,9 +61,11 @@ const char* Optics::usual_size() const {
 }
 
 render::Camera Optics::camera(const globe::geo::Ellipsoid& ellipsoid, const globe::geo::Geodetic& place,
-                              double heading_deg, double pitch_deg, double aspect) const {
-  if (level) pitch_deg = projection == Projection::kFisheye ? 90.0 : 0.0;
-  return render::make_camera(ellipsoid, place, heading_deg, pitch_deg, fov_deg, aspect);
+                              Look look, double aspect) const {
+  if (level) look = {look.heading_deg, projection == Projection::kFisheye ? 90.0 : 0.0};
+  return render::rolled(
+      render::make_camera(ellipsoid, place, look.heading_deg, look.pitch_deg, fov_deg, aspect),
+      look.roll_deg);
 }
 
 Lens::Lens(const Optics& optics, int width, int height, int samples,

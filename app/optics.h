@@ -20,19 +20,26 @@ struct OpticsOptions {
 
 void add_optics_options(CLI::App& command, OpticsOptions& options);
 
+/// Which way a camera looks, degrees.
+struct Look {
+  double heading_deg = 0;
+  double pitch_deg = 0;
+  double roll_deg = 0;  ///< clockwise, seen from behind it
+};
+
 /// How a camera's surroundings become a picture.
 struct Optics {
   globe::render::Projection projection = globe::render::Projection::kPerspective;
   double fov_deg = 60.0;
   bool level =
-      false;  ///< the middle of a fisheye is the zenith, a panorama's horizon level, whatever the pitch
+      false;  ///< the middle of a fisheye is the zenith, a panorama's horizon level, whatever pitch and roll
   int face_side = 0;  ///< WideFormat::face_side
 
   bool is_wide() const { return projection != globe::render::Projection::kPerspective; }
   /// "WxH" unless told otherwise.
   const char* usual_size() const;
   globe::render::Camera camera(const globe::geo::Ellipsoid& ellipsoid, const globe::geo::Geodetic& place,
-                               double heading_deg, double pitch_deg, double aspect) const;
+                               Look look, double aspect) const;
 };
 
 /// Throws UsageError.

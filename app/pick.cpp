@@ -86,8 +86,8 @@ class Picker {
       return height;
     };
     const Standpoint stand = standpoint(options.stand, options.camera, scene, surface, max_level, above);
-    camera_ = optics.camera(ellipsoid_, stand.place, stand.look.heading_deg, stand.look.pitch_deg,
-                            static_cast<double>(size.width) / size.height);
+    camera_ =
+        optics.camera(ellipsoid_, stand.place, stand.look, static_cast<double>(size.width) / size.height);
     double away_m = std::max(above(camera_.position), globe::clipmap::least_above_ground(ellipsoid_));
     near_m_ = render::near_distance(ellipsoid_, away_m);
     if (region_) {

@@ -46,9 +46,8 @@ void run(ShotOptions options, const CLI::App& command) {
   const Standpoint stand =
       standpoint(options.stand, view, scene, surface, settings.max_level,
                  [&](const glm::dvec3& position) { return renderer.height_above_ground(position); });
-  const render::Camera camera =
-      optics.camera(surface->ellipsoid(), stand.place, stand.look.heading_deg, stand.look.pitch_deg,
-                    static_cast<double>(size.width) / size.height);
+  const render::Camera camera = optics.camera(surface->ellipsoid(), stand.place, stand.look,
+                                              static_cast<double>(size.width) / size.height);
   renderer.set_instant(sun.instant(options.stand.moment_s));
   lens.draw(renderer, camera, sun.at(options.stand.moment_s), true);
   save_picture(view, target,

@@ -32,6 +32,11 @@ globe::geo::Geodetic standing_place(const Point& at, bool agl, const globe::geo:
   return place;
 }
 
+std::optional<Look> look_of(const globe::scene::StandingCamera& camera) {
+  if (!camera.look) return std::nullopt;
+  return Look{camera.look->heading_deg, camera.look->pitch_deg, camera.roll_deg};
+}
+
 void add_stand_options(CLI::App& command, StandOptions& options) {
   command.add_option("--at", options.at, "where the camera stands: LAT,LON[,ALT]; not needed with a scene");
   command.add_option("--moment", options.moment_s, "seconds from the beginning of a scene's path")
@@ -52,8 +57,7 @@ Standpoint standpoint(const StandOptions& options, const CameraOptions& camera,
                       const std::shared_ptr<const globe::planet::Surface>& surface, int max_level,
                       const std::function<double(const glm::dvec3&)>& height_above_ground) {
   Standpoint stand{{}, {0.0, -90.0}};
-  if (scene && scene->camera && scene->camera->look)
-    stand.look = {scene->camera->look->heading_deg, scene->camera->look->pitch_deg};
+  if (scene && scene->camera) stand.look = look_of(*scene->camera).value_or(stand.look);
   if (!options.at.empty()) {
     stand.place =
         standing_place(parse_point(options.at), camera.agl, surface->ellipsoid(), height_above_ground);
@@ -63,7 +67,7 @@ Standpoint standpoint(const StandOptions& options, const CameraOptions& camera,
   } else {
     const Flight flight(clipmap_settings(camera), surface, max_level, *scene->path);
     const Flight::View view = flight.at(std::min(options.moment_s / flight.duration_s(), 1.0), true);
-    stand = {view.place, {view.heading_deg, view.pitch_deg}};
+    stand = {view.place, view.look};
   }
   if (!camera.look.empty()) stand.look = parse_look(camera.look);
   return stand;

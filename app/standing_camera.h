@@ -23,6 +23,9 @@ struct Standpoint {
   Look look;
 };
 
+/// A scene's camera's; none: it says nothing.
+std::optional<Look> look_of(const globe::scene::StandingCamera& camera);
+
 /// --at and --moment as they are written.
 struct StandOptions {
   std::string at;

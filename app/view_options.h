@@ -73,11 +73,6 @@ void add_view_options(CLI::App& command, ViewOptions& options);
 std::shared_ptr<const globe::planet::Surface> open_planet(const CameraOptions& options);
 std::shared_ptr<const globe::planet::Surface> open_planet(const ViewOptions& options);
 
-/// Heading and pitch, degrees.
-struct Look {
-  double heading_deg = 0;
-  double pitch_deg = 0;
-};
 /// "HEADING,PITCH". Throws UsageError unless both are numbers and the pitch lies in [-90, 90].
 Look parse_look(const std::string& text);
 

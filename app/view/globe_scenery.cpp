@@ -171,7 +171,7 @@ double GlobeScenery::ground_m(double lat_deg, double lon_deg) const {
       globe::planet::data_height_at(*surface_, globe::geo::normal_from_degrees(lat_deg, lon_deg),
                                     globe::planet::Interpolation::kLinear)
           .height_m;
-  return surface_->has_sea() ? std::max(ground, 0.0) : ground;
+  return surface_->drawn_height(ground);
 }
 
 std::string GlobeScenery::name() const {

@@ -22,6 +22,15 @@ Camera make_camera(const geo::Ellipsoid& ellipsoid, const geo::Geodetic& place, 
   return camera;
 }
 
+Camera rolled(const Camera& camera, double roll_deg) {
+  if (roll_deg == 0.0) return camera;
+  const double roll = roll_deg * std::numbers::pi / 180.0;
+  Camera turned = camera;
+  turned.right = camera.right * std::cos(roll) - camera.up * std::sin(roll);
+  turned.up = camera.up * std::cos(roll) + camera.right * std::sin(roll);
+  return turned;
+}
+
 dvec3 direction_through(const Camera& camera, double x, double y) {
   return glm::normalize(camera.forward + camera.right * (camera.tan_x() * (2.0 * x - 1.0)) +
                         camera.up * (camera.tan_y() * (1.0 - 2.0 * y)));

@@ -29,6 +29,9 @@ struct Camera {
 Camera make_camera(const geo::Ellipsoid& ellipsoid, const geo::Geodetic& place, double heading_deg,
                    double pitch_deg, double fov_y_deg, double aspect);
 
+/// The camera turned about the way it looks, clockwise seen from behind it: its right side goes down.
+Camera rolled(const Camera& camera, double roll_deg);
+
 /// Unit direction through a point of the picture: x from its left edge, y from its top, each 0 to 1.
 dvec3 direction_through(const Camera& camera, double x, double y);
 

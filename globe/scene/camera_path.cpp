@@ -15,6 +15,7 @@ using glm::dvec3;
 
 constexpr double kNearPole = 0.08715574274765817;  ///< sine of 5 degrees
 constexpr int kSamples = 16;                       ///< of a piece, to see how near to an axis it comes
+constexpr double kRounding = 1e-12;
 
 std::vector<double> times_of(const std::vector<PathStop>& stops) {
   std::vector<double> times;
@@ -115,29 +116,67 @@ std::vector<double> headings_of(const std::vector<PathStop>& stops, const Sphere
   return headings;
 }
 
+/// Rolls of the stops, each the short way round from the one before.
+std::vector<double> rolls_of(const std::vector<PathStop>& stops) {
+  std::vector<double> rolls;
+  rolls.reserve(stops.size());
+  for (const PathStop& stop : stops) {
+    const double before = rolls.empty() ? 0.0 : rolls.back();
+    rolls.push_back(before + std::remainder(stop.roll_deg - before, 360.0));
+  }
+  return rolls;
+}
+
+/// The stops from jump to jump, two or more each: at a single one the camera stays.
+std::vector<std::vector<PathStop>> legs_of(const std::vector<PathStop>& stops) {
+  std::vector<std::vector<PathStop>> legs;
+  for (const PathStop& stop : stops) {
+    if (legs.empty() || stop.jump) legs.emplace_back();
+    legs.back().push_back(stop);
+  }
+  for (std::vector<PathStop>& leg : legs) {
+    if (leg.size() > 1) continue;
+    leg.push_back(leg.front());
+    leg.back().time_s += 1.0;
+  }
+  return legs;
+}
+
 }  // namespace
 
-CameraPath::CameraPath(const std::vector<PathStop>& stops, double low_pitch_deg)
-    : times_(times_of(stops)),
-      place_(place_of(stops)),
-      ground_(curve_of(stops, [&](std::size_t k) { return stops[k].ground_m; })),
-      log_above_(curve_of(stops, [&](std::size_t k) { return std::log(stops[k].above_m); })),
-      reference_(reference_for(times_, place_)),
-      heading_(times_, headings_of(stops, place_, reference_), rests_of(stops)),
-      pitch_(curve_of(stops, [&](std::size_t k) {
-        double lowest = std::numeric_limits<double>::infinity();
-        for (const PathStop& stop : stops) lowest = std::min(lowest, stop.above_m);
-        return stops[k].look ? stops[k].look->pitch_deg
-                             : pitch_for_height(stops[k].above_m, lowest, low_pitch_deg);
-      })) {}
+CameraPath::Leg::Leg(const std::vector<PathStop>& stops, double lowest_m, double low_pitch_deg)
+    : begin_s(stops.front().time_s),
+      place(place_of(stops)),
+      ground(curve_of(stops, [&](std::size_t k) { return stops[k].ground_m; })),
+      log_above(curve_of(stops, [&](std::size_t k) { return std::log(stops[k].above_m); })),
+      reference(reference_for(times_of(stops), place)),
+      heading(times_of(stops), headings_of(stops, place, reference), rests_of(stops)),
+      pitch(curve_of(stops,
+                     [&](std::size_t k) {
+                       return stops[k].look ? stops[k].look->pitch_deg
+                                            : pitch_for_height(stops[k].above_m, lowest_m, low_pitch_deg);
+                     })),
+      roll(times_of(stops), rolls_of(stops), rests_of(stops)) {}
+
+CameraPath::CameraPath(const std::vector<PathStop>& stops, double low_pitch_deg) : times_(times_of(stops)) {
+  double lowest_m = std::numeric_limits<double>::infinity();
+  for (const PathStop& stop : stops) lowest_m = std::min(lowest_m, stop.above_m);
+  for (const std::vector<PathStop>& leg : legs_of(stops)) legs_.emplace_back(leg, lowest_m, low_pitch_deg);
+}
 
 CameraPath::View CameraPath::at(double time_s) const {
+  // A moment told as a share of the path's time may fall short of a jump by a rounding.
+  const double within = time_s + kRounding * times_.back();
+  const auto after =
+      std::find_if(legs_.begin() + 1, legs_.end(), [&](const Leg& one) { return one.begin_s > within; });
+  const Leg& leg = *(after - 1);
   View view;
-  view.u = place_.at(time_s);
-  view.ground_m = ground_.at(time_s);
-  view.above_m = std::exp(log_above_.at(time_s));
-  view.heading_deg = heading_of_tangent(view.u, turned_from(reference_, view.u, heading_.at(time_s)));
-  view.pitch_deg = pitch_.at(time_s);
+  view.u = leg.place.at(time_s);
+  view.ground_m = leg.ground.at(time_s);
+  view.above_m = std::exp(leg.log_above.at(time_s));
+  view.heading_deg = heading_of_tangent(view.u, turned_from(leg.reference, view.u, leg.heading.at(time_s)));
+  view.pitch_deg = leg.pitch.at(time_s);
+  view.roll_deg = leg.roll.at(time_s);
   return view;
 }
 

@@ -53,11 +53,25 @@ PathKey view_of(const XmlFile& file, const pugi::xml_node& node, std::optional<b
     key.range_m = file.number(node, "range").value_or(0.0);
     if (!(key.range_m > 0.0))
       file.refuse(node, "a LookAt without a range above 0", "give its <range> in metres");
+  } else {
+    // KML rolls about an axis that points at the viewer, so counter-clockwise.
+    key.roll_deg = -file.number(node, "roll").value_or(0.0);
+    if (!(std::abs(key.roll_deg) <= 180.0))
+      file.refuse(node, "the roll is not in -180 to 180", "write degrees, 0 for a level horizon");
   }
   return key;
 }
 
-/// A tour: FlyTos arrive after their durations, at rest unless they are smooth; Waits hold.
+bool is_smooth(const XmlFile& file, const pugi::xml_node& fly_to) {
+  const pugi::xml_node node = child_named(fly_to, "flyToMode");
+  const std::string mode = node ? std::string(node.text().get()) : "bounce";
+  if (mode != "smooth" && mode != "bounce")
+    file.refuse(node, "flyToMode \"" + one_line(mode, 40) + "\" is none of KML's", "write bounce or smooth");
+  return mode == "smooth";
+}
+
+/// A tour: FlyTos arrive after their durations, or at once where they have none; Waits hold. Smooth ones one
+/// after the other are flown without a rest between them; anything else begins and ends at rest.
 std::vector<PathKey> keys_of_tour(const XmlFile& file, const pugi::xml_node& tour, std::optional<bool> agl) {
   std::vector<PathKey> keys;
   double time = 0.0;
@@ -71,6 +85,7 @@ std::vector<PathKey> keys_of_tour(const XmlFile& file, const pugi::xml_node& tou
       time += duration;
       keys.back().stop = true;
       keys.push_back(keys.back());
+      keys.back().jump = false;
       keys.back().time_s = time;
       continue;
     }
@@ -78,14 +93,17 @@ std::vector<PathKey> keys_of_tour(const XmlFile& file, const pugi::xml_node& tou
     if (!camera && !look_at) file.refuse(step, "a FlyTo without a view", "give it a LookAt or a Camera");
     PathKey key = view_of(file, camera ? camera : look_at, agl);
     // The first view is where the path begins, however long it takes to get there.
+    const bool smooth = is_smooth(file, step);
     if (!keys.empty()) {
-      if (duration == 0.0) file.refuse(step, "a FlyTo in no time is a jump", "give it a gx:duration above 0");
+      key.jump = duration == 0.0;
+      if (key.jump || !smooth) keys.back().stop = true;
       time += duration;
     }
     key.time_s = time;
-    key.stop = std::string_view(child_named(step, "flyToMode").text().get()) != "smooth";
+    key.stop = keys.empty() || !smooth || key.jump;
     keys.push_back(key);
   }
+  if (!keys.empty()) keys.back().stop = true;
   return keys;
 }
 

@@ -25,6 +25,8 @@ PathStop standing(const PathKey& key, const geo::Ellipsoid& ellipsoid,
   PathStop stop;
   stop.look = key.look;
   stop.stop = key.stop;
+  stop.roll_deg = key.roll_deg;
+  stop.jump = key.jump;
   if (key.above_ground) place.h_m += ground_m(place);
   if (key.range_m > 0.0) {
     const geo::LocalFrame there = geo::local_frame(place.lat_deg, place.lon_deg);
@@ -63,10 +65,12 @@ void require_path(const std::vector<PathKey>& keys, const std::string& file) {
       refuse(file, key.line, "some places have a time and some have none", "give a time to all or to none");
     if (!key.time_s) continue;
     if (!std::isfinite(*key.time_s)) refuse(file, key.line, "the time is not finite", "write seconds");
-    if (k > 0 && !(*key.time_s > *keys[k - 1].time_s))
+    if (k > 0 && !(*key.time_s > *keys[k - 1].time_s) && !(key.jump && key.time_s == keys[k - 1].time_s))
       refuse(file, key.line, "the time is not later than that of the place before",
              "put the places in the order of their times");
   }
+  if (keys.front().time_s && !(*keys.back().time_s > *keys.front().time_s))
+    refuse(file, keys.back().line, "the path takes no time", "let the camera fly or wait somewhere");
 }
 
 std::vector<PathStop> stops_of(const std::vector<PathKey>& keys, const geo::Ellipsoid& ellipsoid,
@@ -77,6 +81,11 @@ std::vector<PathStop> stops_of(const std::vector<PathKey>& keys, const geo::Elli
     PathStop stop = standing(key, ellipsoid, ground_m, least_m);
     if (key.time_s) {
       stop.time_s = *key.time_s - *keys.front().time_s;
+      if (stop.jump && !stops.empty() && stops.back().time_s < stop.time_s) {
+        PathStop& held = stops.emplace_back(stops.back());
+        held.time_s = stop.time_s;
+        held.jump = false;
+      }
     } else if (!stops.empty()) {
       const PathStop& before = stops.back();
       const double step_m =

@@ -26,11 +26,14 @@ struct PathKey {
   /// > 0: the place is what the camera looks at, from so far away, and the look is told there. REQUIRES:
   /// look.
   double range_m = 0;
-  bool stop = false;  ///< the camera comes to rest here
+  bool stop = false;    ///< the camera comes to rest here
+  double roll_deg = 0;  ///< clockwise, seen from behind the camera: the right side goes down
+  /// The camera is here all at once, and until then where the key before has it. Its time may be that key's.
+  bool jump = false;
 };
 
 /// Throws Error, naming file and line, unless the keys make a path: two or more, at places one can be at, all
-/// with times or none, and the times increasing.
+/// with times or none, and the times increasing, but for jumps.
 void require_path(const std::vector<PathKey>& keys, const std::string& file);
 
 /// A place of a path on a planet.
@@ -41,6 +44,8 @@ struct PathStop {
   double above_m = 1;     ///< height above that ground, > 0
   std::optional<Look> look;
   bool stop = false;
+  double roll_deg = 0;
+  bool jump = false;  ///< at the time of the stop before
 };
 
 /// Puts a path on a planet. Keys without times are passed at a constant speed over the ground, within

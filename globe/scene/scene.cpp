@@ -95,11 +95,16 @@ std::optional<Look> read_look(Fields& fields) {
   return Look{look->heading_deg, look->pitch_deg};
 }
 
+double read_roll(Fields& fields) { return fields.angle_deg("roll", {-180.0, 180.0}).value_or(0.0); }
+
 StandingCamera read_camera(Fields fields, Picture& picture) {
   StandingCamera camera;
   camera.at = fields.required("at", fields.place("at"), "write at = \"LAT,LON,ALT\"");
   camera.agl = fields.flag("agl").value_or(false);
   camera.look = read_look(fields);
+  camera.roll_deg = read_roll(fields);
+  if (camera.roll_deg != 0.0 && !camera.look)
+    fields.refuse("roll", "a camera without a look", "write look = \"HEADING,PITCH\" too");
   if (const auto fov = fields.angle_deg("fov", fov_range(picture))) {
     if (picture.fov_deg) fields.refuse("fov", "[picture] has a fov too", "leave one of them out");
     picture.fov_deg = fov;
@@ -119,6 +124,8 @@ PathKey read_key(Fields& fields, bool agl) {
   key.above_ground = fields.flag("agl").value_or(agl);
   key.look = read_look(fields);
   key.stop = fields.flag("stop").value_or(false);
+  key.roll_deg = read_roll(fields);
+  key.jump = fields.flag("jump").value_or(false);
   fields.finish();
   return key;
 }

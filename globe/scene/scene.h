@@ -37,6 +37,7 @@ struct StandingCamera {
   geo::Point at;
   bool agl = false;  ///< the altitude counts from the ground
   std::optional<Look> look;
+  double roll_deg = 0;  ///< as PathKey has it; REQUIRES: look
 };
 
 /// [path]: one that moves.

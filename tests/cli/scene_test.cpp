@@ -155,6 +155,40 @@ at = "15,21,800km"
   EXPECT_EQ(frames({"--frames", "2", "--to", "10 20"}).back()["lat"], 10.0);  // no path any more
 }
 
+TEST_F(Scenes, ARolledPictureIsTheLevelOneTurned) {
+  // 64 pixels across 0.5 times the tangent of half of 60 degrees and 48 up, or the other way round.
+  const double wide_fov = 2.0 * std::atan(std::tan(0.5) * 64.0 / 48.0);
+  const auto picture = [&](const std::string& size, double fov_rad, const std::string& roll) {
+    const std::string scene = write(
+        "s.toml",
+        "[picture]\nsize = '" + size + "'\nfov = " + std::to_string(fov_rad * 180.0 / 3.14159265358979) +
+            "\ndetail = 64\n[camera]\nat = '-43.42,-106.43,1000'\nagl = true\nlook = '110,-8'\n" + roll);
+    const std::string name = file("turned.exr");
+    const Outcome run = run_program({"shot", scene, "-o", name, "--overwrite"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    std::vector<float> rgba(64 * 48 * 4);
+    const auto image = OIIO::ImageInput::open(name);
+    EXPECT_TRUE(image && image->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, rgba.data()));
+    return rgba;
+  };
+  const std::vector<float> tall = picture("48x64", wide_fov, "");
+  EXPECT_EQ(tall, picture("48x64", wide_fov, "roll = 0"));
+  const auto difference = [&](const std::string& roll) {
+    const std::vector<float> turned = picture("64x48", 1.0, roll);
+    double sum = 0.0;
+    for (std::size_t y = 0; y < 48; ++y) {
+      for (std::size_t x = 0; x < 64; ++x) {
+        // Clockwise the camera, so counter-clockwise the picture: its top was the right side.
+        for (std::size_t c = 0; c < 3; ++c)
+          sum += std::abs(turned[(y * 64 + x) * 4 + c] - tall[(x * 48 + 47 - y) * 4 + c]);
+      }
+    }
+    return sum / (48 * 64 * 3);
+  };
+  EXPECT_LT(difference("roll = 90"), 0.002);  // levels and patches are chosen for a picture of other height
+  EXPECT_GT(difference("roll = -90"), 0.05);
+}
+
 TEST_F(Scenes, EveryExampleIsDrawn) {
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kScenes)) {

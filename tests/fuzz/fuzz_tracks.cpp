@@ -18,7 +18,7 @@ void check(const std::vector<globe::scene::PathKey>& keys) {
   const globe::scene::CameraPath path(stops, -10.0);
   for (int k = 0; k <= 16; ++k) {
     const auto view = path.at(path.duration_s() * k / 16);
-    if (!std::isfinite(view.u.x + view.u.y + view.u.z) || !std::isfinite(view.heading_deg) ||
+    if (!std::isfinite(view.u.x + view.u.y + view.u.z) || !std::isfinite(view.heading_deg + view.roll_deg) ||
         !(view.above_m > 0.0) || !(std::abs(view.pitch_deg) <= 90.0))
       std::abort();
   }

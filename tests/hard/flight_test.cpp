@@ -62,7 +62,7 @@ void fly(std::shared_ptr<const Surface> surface, std::size_t count, unsigned see
              800.0);
     from.above_ground_m = 2.0 * std::pow(500.0, unit(random));
     to.above_ground_m = 2.0 * std::pow(500.0, unit(random));
-    const Flight flight(Settings::for_detail(64), surface, kFinestFlown, from, to, 0.0, 0.0);
+    const Flight flight(Settings::for_detail(64), surface, kFinestFlown, from, to, {});
     const globe::scene::FlightPath path(
         globe::geo::normal_from_degrees(from.place.lat_deg, from.place.lon_deg), from.above_ground_m,
         globe::geo::normal_from_degrees(to.place.lat_deg, to.place.lon_deg), to.above_ground_m,
@@ -118,6 +118,33 @@ TEST(H20, FlightsAreClearOfTheEarthsMountains) {
   Seen seen;
   fly(tests::open_surface(options.planet), hard::cases(150), 2012, seen);
   expect_clear("the Earth", seen);
+}
+
+TEST(H20, AFlightThatJumpsIsClearOfMountainsOnBothSides) {
+  const std::shared_ptr<const Surface> surface = Surface::builtin(1);
+  globe::scene::Path path;
+  const auto add = [&](double time, double lat, double lon, bool jump) {
+    globe::scene::PathKey key;
+    key.time_s = time;
+    key.place = {lat, lon, 20.0};
+    key.above_ground = true;
+    key.jump = jump;
+    path.keys.push_back(key);
+  };
+  // Through the range of the built-in planet's scenic place, and again from its other side.
+  add(0, -43.42, -106.43, false);
+  add(10, -43.5, -105.9, false);
+  add(10, -43.2, -106.2, true);
+  add(20, -43.8, -106.2, false);
+  const Flight flight(Settings::for_detail(64), surface, kFinestFlown, path);
+  double least_m = 1e9;
+  for (int frame = 0; frame <= kFrames; ++frame) {
+    const Geodetic place = flight.at(static_cast<double>(frame) / kFrames, true).place;
+    least_m = std::min(least_m, above_ground(*surface, place));
+    if (frame == kFrames / 2) EXPECT_NEAR(place.lat_deg, -43.2, 1e-6);
+    if (frame == kFrames / 2 - 1) EXPECT_NEAR(place.lon_deg, -105.9, 0.02);
+  }
+  EXPECT_GE(least_m, 2.0 - 1e-6);
 }
 
 }  // namespace

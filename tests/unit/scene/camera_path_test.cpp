@@ -144,6 +144,46 @@ TEST(CameraPath, StraightOverAPoleTheViewGoesOn) {
   }
 }
 
+TEST(CameraPath, JumpsFromViewToView) {
+  PathKey there = key(5, 40, 100, 300, Look{80, -5});
+  there.jump = true;
+  PathKey later = key(9, -20, 50, 2e5, Look{0, -60});
+  later.jump = true;
+  // To a place where it flies on, then, held until its time, to one where it stays.
+  const CameraPath path = path_of({key(0, 0, 0, 1e6), key(5, 10, 10, 1e3), there,
+                                   key(8, 41, 101, 400, Look{90, -10}), later, key(9.5, -20, 50, 2e5)});
+  const auto is_at = [&](double time, double lat, double lon, double above_m) {
+    const auto view = path.at(time);
+    EXPECT_LT(angle_between(view.u, geo::normal_from_degrees(lat, lon)), 1e-6) << time;
+    EXPECT_NEAR(view.above_m / above_m, 1.0, 1e-6) << time;
+  };
+  EXPECT_EQ(path.duration_s(), 9.5);
+  is_at(5.0 - 1e-9, 10, 10, 1e3);
+  is_at(5.0, 40, 100, 300);
+  is_at(std::nextafter(5.0, 0.0), 40, 100, 300);  // a rounding short of it
+  for (const double held : {8.0, 8.5, 9.0 - 1e-9}) is_at(held, 41, 101, 400);
+  is_at(9.0, -20, 50, 2e5);
+  is_at(9.5, -20, 50, 2e5);
+  // The way before a jump knows nothing of what comes after it.
+  const CameraPath alone = path_of({key(0, 0, 0, 1e6), key(5, 10, 10, 1e3)});
+  for (double t = 0; t < 4.9; t += 0.25) EXPECT_EQ(path.at(t).u, alone.at(t).u);
+}
+
+TEST(CameraPath, RollsTheShortWayRoundAndNotAtAllUnlessTold) {
+  std::vector<PathKey> keys{key(0, 46, 7, 500), key(5, 46, 7.1, 500), key(10, 46, 7.2, 500)};
+  const CameraPath level = path_of(keys);
+  keys[0].roll_deg = 170.0;
+  keys[1].roll_deg = -170.0;
+  keys[2].roll_deg = 0.0;
+  const CameraPath path = path_of(keys);
+  EXPECT_DOUBLE_EQ(std::remainder(path.at(5).roll_deg + 170.0, 360.0), 0.0);
+  for (double t = 0; t <= 5.0; t += 0.25) {
+    EXPECT_LE(std::abs(std::remainder(path.at(t).roll_deg - 180.0, 360.0)), 10.0 + 1e-9);
+    EXPECT_EQ(level.at(t).roll_deg, 0.0);
+    EXPECT_EQ(path.at(t).heading_deg, level.at(t).heading_deg);
+  }
+}
+
 TEST(PathStops, ALookAtStandsOffAndSeesItsPlace) {
   for (const double tilt : {0.0, 30.0, 60.0, 89.0}) {
     PathKey look_at = key(0, 46, 7, 1000, Look{120, tilt - 90.0});

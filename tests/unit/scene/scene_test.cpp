@@ -94,16 +94,28 @@ at = "10,21,200"
 agl = false
 look = "90,0"
 stop = true
+roll = "-15 deg"
+[[path.keys]]
+time = 30
+at = "50,21,200"
+jump = true
+[[path.keys]]
+time = 40
+at = "51,21,200"
 )");
   ASSERT_TRUE(scene.path.has_value());
   EXPECT_EQ(scene.path->duration_s, 60.0);
-  ASSERT_EQ(scene.path->keys.size(), 2u);
+  ASSERT_EQ(scene.path->keys.size(), 4u);
   EXPECT_EQ(scene.path->keys[0].line, 6);
   EXPECT_TRUE(scene.path->keys[0].above_ground);
   EXPECT_FALSE(scene.path->keys[0].look.has_value());
   EXPECT_EQ(scene.path->keys[1].time_s, 30.0);
   EXPECT_FALSE(scene.path->keys[1].above_ground);
   EXPECT_TRUE(scene.path->keys[1].stop);
+  EXPECT_EQ(scene.path->keys[0].roll_deg, 0.0);
+  EXPECT_EQ(scene.path->keys[1].roll_deg, -15.0);
+  EXPECT_FALSE(scene.path->keys[1].jump);
+  EXPECT_TRUE(scene.path->keys[2].jump);
 }
 
 TEST(Scene, EffectsReadTheirOwnTables) {
@@ -157,6 +169,8 @@ TEST(Scene, EveryBadKeyIsRefusedByFileLineAndName) {
       {"[camera]\n", "s.toml:1: camera: at is missing", "LAT,LON,ALT"},
       {"[camera]\nat = \"91,0\"\n", "s.toml:2: camera.at: latitude 91", "latitude first"},
       {"[camera]\nat = \"0,0\"\nlook = \"0,91\"\n", "s.toml:3: camera.look: ", "HEADING,PITCH"},
+      {"[camera]\nat = \"0,0\"\nlook = \"0,9\"\nroll = 181\n", "s.toml:4: camera.roll: ", "to 180 deg"},
+      {"[camera]\nat = \"0,0\"\nroll = 18\n", "s.toml:3: camera.roll: ", "HEADING,PITCH"},
       {"[camera]\nat = \"0,0\"\nfov = 30\n[picture]\nfov = 30\n", "s.toml:3: camera.fov: ", "leave one"},
       {"[camera]\nat = \"0,0\"\n[path]\n", "s.toml:3: path: there is a [camera] too", ""},
       {"[path]\n", "s.toml:1: path: there are neither keys nor a file", ""},
@@ -171,6 +185,10 @@ TEST(Scene, EveryBadKeyIsRefusedByFileLineAndName) {
        "seconds"},
       {"[[path.keys]]\ntime=5\nat=\"0,0,1\"\n[[path.keys]]\ntime=5\nat=\"0,1,1\"\n", "s.toml:4: the time",
        ""},
+      {"[[path.keys]]\ntime=5\nat=\"0,0,1\"\n[[path.keys]]\ntime=5\njump=true\nat=\"0,1,1\"\n",
+       "s.toml:4: the path takes no time", ""},
+      {"[[path.keys]]\ntime=5\nat=\"0,0,1\"\n[[path.keys]]\ntime=4\njump=true\nat=\"0,1,1\"\n",
+       "s.toml:4: the time", ""},
       {"[[path.keys]]\ntime=-1\nat=\"0,0,1\"\nlok = 1\n[[path.keys]]\n",
        "s.toml:4: path.keys[0].lok: ", "look"},
       {"[sun]\ntime = \"noon\"\n", "s.toml:2: sun.time: \"noon\" is not a date and time", "2026-03-21"},

@@ -1,9 +1,14 @@
 #include "globe/scene/track_file.h"
 
 #include <gtest/gtest.h>
+#include <minizip/zip.h>
 #include <rapidcheck/gtest.h>
 
 #include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/temporary_folder.h"
 #include "tests/unit/scene/expect_refusal.h"
@@ -35,9 +40,9 @@ std::string fly_to(const std::string& view, const std::string& duration, const s
 
 TEST(Kml, ToursFlyAndWait) {
   const auto keys = read_kml(tour(fly_to(kCamera, "9") + "<gx:Wait><gx:duration>2</gx:duration></gx:Wait>\n" +
-                                  fly_to(kLookAt, "4", "smooth")),
+                                  fly_to(kLookAt, "4", "smooth") + fly_to(kCamera, "3", "smooth")),
                              "t.kml", std::nullopt);
-  ASSERT_EQ(keys.size(), 3u);
+  ASSERT_EQ(keys.size(), 4u);
   EXPECT_EQ(keys[0].time_s, 0.0);  // where it begins takes no time
   EXPECT_EQ(keys[0].place.h_m, 3000.0);
   EXPECT_FALSE(keys[0].above_ground);
@@ -51,6 +56,47 @@ TEST(Kml, ToursFlyAndWait) {
   EXPECT_EQ(keys[2].range_m, 5000.0);
   EXPECT_TRUE(keys[2].above_ground);  // clampToGround unless said
   EXPECT_EQ(keys[2].line, 6);
+  EXPECT_TRUE(keys[3].stop);  // where it ends
+}
+
+TEST(Kml, OnlySmoothFlightsOneAfterTheOtherGoOnWithoutARest) {
+  const auto rests = [](const std::vector<std::string>& modes) {
+    std::string steps = fly_to(kCamera, "1", "smooth");
+    for (const std::string& mode : modes) {
+      steps += mode == "wait"   ? "<gx:Wait><gx:duration>1</gx:duration></gx:Wait>"
+               : mode == "jump" ? fly_to(kLookAt, "0", "smooth")
+                                : fly_to(kLookAt, "1", mode);
+    }
+    std::vector<bool> rest;
+    for (const PathKey& key : read_kml(tour(steps), "t.kml", std::nullopt)) rest.push_back(key.stop);
+    return rest;
+  };
+  using Rests = std::vector<bool>;
+  EXPECT_EQ(rests({"smooth", "smooth", "smooth"}), (Rests{true, false, false, true}));
+  EXPECT_EQ(rests({"smooth", "bounce", "smooth"}), (Rests{true, true, true, true}));
+  EXPECT_EQ(rests({"smooth", "", "smooth", "smooth"}), (Rests{true, true, true, false, true}));
+  EXPECT_EQ(rests({"smooth", "wait", "smooth"}), (Rests{true, true, true, true}));
+  EXPECT_EQ(rests({"smooth", "jump", "smooth", "smooth"}), (Rests{true, true, true, false, true}));
+}
+
+TEST(Kml, FlightsInNoTimeAreJumps) {
+  const auto keys = read_kml(tour(fly_to(kCamera, "9") + fly_to(kLookAt, "0") +
+                                  "<gx:Wait><gx:duration>2</gx:duration></gx:Wait>" + fly_to(kCamera, "3")),
+                             "t.kml", std::nullopt);
+  ASSERT_EQ(keys.size(), 4u);
+  EXPECT_FALSE(keys[0].jump);
+  EXPECT_TRUE(keys[1].jump);
+  EXPECT_EQ(keys[1].time_s, 0.0);
+  EXPECT_FALSE(keys[2].jump);
+  EXPECT_EQ(keys[2].time_s, 2.0);
+  EXPECT_EQ(keys[3].time_s, 5.0);
+}
+
+TEST(Kml, CamerasRollTheOtherWay) {
+  const std::string leaning = "<Camera><latitude>46</latitude><roll>-20</roll></Camera>";
+  const auto keys = read_kml(tour(fly_to(leaning, "1") + fly_to(kCamera, "1")), "t.kml", std::nullopt);
+  EXPECT_EQ(keys[0].roll_deg, 20.0);  // KML counts counter-clockwise
+  EXPECT_EQ(keys[1].roll_deg, 0.0);
 }
 
 TEST(Kml, LinesAndTracksArePathsToo) {
@@ -84,7 +130,9 @@ TEST(Kml, WhatIsWrongIsToldByItsLine) {
       {tour(fly_to("", "1")), "t.kml:4", "without a view"},
       {tour(fly_to(kCamera, "soon")), "t.kml:4", "\"soon\", not a number"},
       {tour(fly_to(kCamera, "nan")), "t.kml:4", "not a number"},
-      {tour(fly_to(kCamera, "1") + fly_to(kCamera, "0")), "t.kml:5", "jump"},
+      {tour(fly_to(kCamera, "1") + fly_to(kCamera, "0")), "t.kml:5", "takes no time"},
+      {tour(fly_to(kCamera, "1") + fly_to(kCamera, "1", "glide")), "t.kml:5", "glide"},
+      {tour(fly_to("<Camera><roll>181</roll></Camera>", "1")), "t.kml:4", "roll"},
       {tour(fly_to(kCamera, "1") + fly_to(kCamera, "-1")), "t.kml:5", "negative"},
       {tour(fly_to("<LookAt><latitude>1</latitude></LookAt>", "1")), "t.kml:4", "range"},
       {tour(fly_to("<Camera><latitude>91</latitude></Camera>", "1") + fly_to(kCamera, "1")), "t.kml:4",
@@ -186,8 +234,57 @@ TEST(TrackFile, IsToldByItsEnding) {
   const tests::TemporaryFolder folder;
   std::ofstream(folder / "a.CSV") << "lat,lon,alt\n1,2,3\n1,3,3\n";
   EXPECT_EQ(read_track_file(folder / "a.CSV", std::nullopt).size(), 2u);
-  scene_tests::expect_refusal([&] { read_track_file(folder / "a.kmz", std::nullopt); },
-                              (folder / "a.kmz").string(), "unpack");
+  scene_tests::expect_refusal([&] { read_track_file(folder / "a.fit", std::nullopt); },
+                              (folder / "a.fit").string(), ".kmz");
+}
+
+/// A zip archive of files by name, packed.
+void write_archive(const std::filesystem::path& path,
+                   const std::vector<std::pair<std::string, std::string>>& files) {
+  const zipFile archive = zipOpen64(path.c_str(), APPEND_STATUS_CREATE);
+  ASSERT_NE(archive, nullptr);
+  for (const auto& [name, text] : files) {
+    ASSERT_EQ(zipOpenNewFileInZip(archive, name.c_str(), nullptr, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED,
+                                  Z_BEST_SPEED),
+              ZIP_OK);
+    ASSERT_EQ(zipWriteInFileInZip(archive, text.data(), static_cast<unsigned>(text.size())), ZIP_OK);
+    zipCloseFileInZip(archive);
+  }
+  ASSERT_EQ(zipClose(archive, nullptr), ZIP_OK);
+}
+
+TEST(Kmz, TheFirstKmlAtTheTopIsRead) {
+  const tests::TemporaryFolder folder;
+  const std::string flight = tour(fly_to(kCamera, "1") + fly_to(kLookAt, "4"));
+  write_archive(folder / "a.KMZ", {{"files/other.kml", tour("")},
+                                   {"files/picture.png", std::string(100'000, 'x')},
+                                   {"doc.kml", flight},
+                                   {"more.kml", tour("")}});
+  EXPECT_EQ(read_track_file(folder / "a.KMZ", std::nullopt).size(), 2u);
+  write_archive(folder / "b.kmz", {{"tour/flight.KML", flight}});
+  EXPECT_EQ(read_track_file(folder / "b.kmz", std::nullopt).size(), 2u);
+}
+
+TEST(Kmz, WhatIsWrongIsToldInOneLine) {
+  const tests::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "a.kmz";
+  const auto refused = [&](const std::string& begin, const std::string& part) {
+    scene_tests::expect_refusal([&] { read_track_file(file, std::nullopt); }, file.string() + begin, part);
+  };
+  refused("", "zip archive");
+  std::ofstream(file) << "<kml/>";
+  refused("", "zip archive");
+  write_archive(file, {{"readme.txt", "nothing"}});
+  refused("", "no .kml");
+  write_archive(file, {{"doc.kml", tour(fly_to(kCamera, "1") + fly_to(kCamera, "soon"))}});
+  refused("/doc.kml:5", "\"soon\", not a number");
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  bytes[bytes.find("doc.kml") + 12] ^= 0x55;  // in what is packed
+  std::ofstream(file, std::ios::binary) << bytes;
+  refused("/doc.kml", "damaged");
+  write_archive(file, {{"doc.kml", std::string(65u << 20, ' ')}});  // 64 KiB packed
+  refused("/doc.kml", "longer than 64 MiB");
 }
 
 RC_GTEST_PROP(TrackCsv, ReadsBackWhatIsWritten, (const std::vector<std::pair<int, int>>& steps)) {
