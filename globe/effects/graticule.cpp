@@ -9,7 +9,6 @@
 #include "globe/effects/map_eye.h"
 #include "globe/effects/mark_parameters.h"
 #include "globe/effects/uniform_block.h"
-#include "globe/render/tone.h"
 
 namespace globe::effects {
 namespace {
@@ -65,8 +64,7 @@ class Graticule final : public render::Effect {
       return static_cast<int>(k < 0 ? k + ratio : k);
     };
     block_.bind(
-        {map_eye(ellipsoid, eye),
-         glm::vec4(render::light_shown_as(parameters_.color), static_cast<float>(parameters_.opacity)),
+        {map_eye(ellipsoid, eye), glm::vec4(parameters_.color, static_cast<float>(parameters_.opacity)),
          glm::vec4(glm::dvec4(lon - std::round(lon), lat - std::round(lat), step / 3600.0 * kDegree,
                               parameters_.width_px)),
          glm::ivec4(number(lon), number(lat), static_cast<int>(ratio),

@@ -32,6 +32,7 @@ struct ShapeLayer {
 /// "shapes": GeoJSON files, later ones over earlier ones.
 struct ShapesParameters {
   std::vector<ShapeLayer> layers;
+  double error_px = 0.25;  ///< that a line may be drawn off its place
 };
 
 /// "labels": names of features, and of the lines of a graticule.

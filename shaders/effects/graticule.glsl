@@ -1,9 +1,10 @@
 // Meridians and parallels (globe/effects/graticule.cpp).
 #include "lib/map_place.glsl"
+#include "lib/marked_light.glsl"
 
 layout(std140, binding = GRATICULE_BLOCK) uniform Graticule {
   MapEye eye;
-  vec4 color;     // light; w: opacity
+  vec4 color;     // as the screen shows it; w: opacity
   vec4 lines;     // the eye's longitude and latitude from the nearest line, in steps; the step in radians; width in pixels
   ivec4 numbers;  // of that meridian and parallel, in the period in which one line is not a finer one; the period; 1000 times what is seen
                   // of finer lines
@@ -32,5 +33,5 @@ vec3 graticule_add(vec3 light, Place place) {
   vec2 away = abs(steps - nearest) * gap;
   float meridian = graticule_cover(away.x, gap.x) * graticule_share(graticule.numbers.x, int(nearest.x));
   float parallel = graticule_cover(away.y, gap.y) * graticule_share(graticule.numbers.y, int(nearest.y));
-  return mix(light, graticule.color.rgb, max(meridian, parallel) * graticule.color.w);
+  return marked_light(light, graticule.color.rgb, max(meridian, parallel) * graticule.color.w);
 }
