@@ -1,5 +1,6 @@
 #include "app/view_options.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -44,7 +45,8 @@ glm::vec3 parse_color(const std::string& text) {
 
 void add_eye_options(CLI::App& command, CameraOptions& options) {
   command.add_flag("--agl", options.agl, "altitudes count from the ground");
-  command.add_option("--look", options.look, "HEADING,PITCH in degrees; -90 down, 0 level");
+  command.add_option("--look", options.look,
+                     "HEADING,PITCH[,ROLL] in degrees; a pitch of -90 looks down, 0 level");
   command.add_option("--size", options.size,
                      "WxH in pixels (default: 1280x720; fisheye 1024x1024, equirectangular 2048x1024)");
   add_optics_options(command, options.optics);
@@ -137,15 +139,21 @@ std::shared_ptr<const globe::planet::Surface> open_planet(const CameraOptions& o
 }
 
 Look parse_look(const std::string& text) {
-  const std::size_t comma = text.find(',');
-  const auto heading = to_double(std::string_view(text).substr(0, comma));
-  const auto pitch =
-      comma == std::string::npos ? std::nullopt : to_double(std::string_view(text).substr(comma + 1));
-  if (!heading || !pitch || std::abs(*pitch) > 90.0) {
-    throw UsageError("--look " + text, "not a heading and a pitch in [-90, 90]",
-                     "write HEADING,PITCH in degrees, such as 45,-10");
+  std::array<std::optional<double>, 3> angles;
+  std::string_view rest = text;
+  std::size_t count = 0;
+  for (std::size_t comma = 0; comma != std::string_view::npos && count < angles.size(); ++count) {
+    comma = rest.find(',');
+    angles[count] = to_double(rest.substr(0, comma));
+    if (comma != std::string_view::npos) rest.remove_prefix(comma + 1);
+    if (count + 1 == angles.size() && comma != std::string_view::npos) angles[0].reset();
   }
-  return {*heading, *pitch};
+  const auto [heading, pitch, roll] = angles;
+  if (!heading || !pitch || std::abs(*pitch) > 90.0 || (count == 3 && !roll)) {
+    throw UsageError("--look " + text, "not a heading, a pitch in [-90, 90] and perhaps a roll",
+                     "write HEADING,PITCH or HEADING,PITCH,ROLL in degrees, such as 45,-10");
+  }
+  return {*heading, *pitch, roll.value_or(0.0)};
 }
 
 Size parse_size(const std::string& text) {

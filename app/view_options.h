@@ -73,7 +73,8 @@ void add_view_options(CLI::App& command, ViewOptions& options);
 std::shared_ptr<const globe::planet::Surface> open_planet(const CameraOptions& options);
 std::shared_ptr<const globe::planet::Surface> open_planet(const ViewOptions& options);
 
-/// "HEADING,PITCH". Throws UsageError unless both are numbers and the pitch lies in [-90, 90].
+/// "HEADING,PITCH" or "HEADING,PITCH,ROLL". Throws UsageError unless both are numbers and the pitch lies in
+/// [-90, 90].
 Look parse_look(const std::string& text);
 
 struct Size {

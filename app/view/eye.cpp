@@ -14,8 +14,9 @@ using globe::kDegree;
 namespace geo = globe::geo;
 
 globe::render::Camera Eye::camera(const Standpoint& stand) const {
-  return globe::render::make_camera(ellipsoid, stand.place, stand.look.heading_deg, stand.look.pitch_deg,
-                                    fov_deg, size.x / size.y);
+  return globe::render::rolled(globe::render::make_camera(ellipsoid, stand.place, stand.look.heading_deg,
+                                                          stand.look.pitch_deg, fov_deg, size.x / size.y),
+                               stand.look.roll_deg);
 }
 
 dvec3 Eye::direction(const globe::render::Camera& camera, dvec2 pixel) const {
@@ -53,7 +54,7 @@ Look aimed(const Eye& eye, const Standpoint& stand, const dvec3& direction, dvec
   const double ahead = seen.z * std::cos(pitch) - seen.y * std::sin(pitch);
   const double east = glm::dot(toward, frame.east), north = glm::dot(toward, frame.north);
   const double heading = std::atan2(east, north) - std::atan2(seen.x, ahead);
-  return {folded(heading) / kDegree, pitch / kDegree};
+  return {folded(heading) / kDegree, pitch / kDegree, 0.0};
 }
 
 }  // namespace app::view

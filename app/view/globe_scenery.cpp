@@ -42,8 +42,10 @@ GlobeScenery::GlobeScenery(std::string word, const ViewOptions& options,
                                              [&](const auto& effect) { return effect.name == name; });
     effects_.push_back({name, asked, asked, asked});
   }
-  region_ = region_of(scene_, surface_, options_.quiet);
-  remake();
+  globe::scene::Scene plain = wanted();
+  plain.effects.clear();
+  plain.region.reset();
+  make(plain);
   add_choices();
 }
 
@@ -58,8 +60,15 @@ globe::scene::Scene GlobeScenery::wanted() const {
   return scene;
 }
 
-void GlobeScenery::remake() {
-  const globe::scene::Scene scene = wanted();
+void GlobeScenery::complete() {
+  if (!scene_ || (scene_->effects.empty() && !scene_->region)) return;
+  region_ = region_of(scene_, surface_, options_.quiet);
+  remake();
+}
+
+void GlobeScenery::remake() { make(wanted()); }
+
+void GlobeScenery::make(const globe::scene::Scene& scene) {
   const render::RenderSettings settings = render_settings(options_);
   options_.sea_floor =
       globe::effects::draws_sea(scene) ? globe::planet::SeaFloor::kBare : globe::planet::SeaFloor::kFlooded;
@@ -69,7 +78,10 @@ void GlobeScenery::remake() {
   renderer_ = std::make_unique<render::GlobeRenderer>(surface_, settings, std::move(made),
                                                       region_in_globe(region_, scene, settings));
   renderer_->show_as(settings.show, settings.wireframe, culling_);
-  for (EffectChoice& effect : effects_) effect.in_renderer = effect.on;
+  for (EffectChoice& effect : effects_) {
+    effect.in_renderer = std::any_of(scene.effects.begin(), scene.effects.end(),
+                                     [&](const auto& made_of) { return made_of.name == effect.name; });
+  }
 }
 
 bool GlobeScenery::is_animated() const { return renderer_->moves(); }

@@ -24,6 +24,7 @@ class GlobeScenery : public Scenery {
   const ViewOptions& options() const override { return options_; }
   std::string body() const override { return surface_->info().body; }
   bool is_animated() const override;
+  void complete() override;
   const std::vector<Choice>& choices() const override { return choices_; }
   std::vector<std::string> shot_words() const override;
   double ground_m(double lat_deg, double lon_deg) const override;
@@ -39,6 +40,7 @@ class GlobeScenery : public Scenery {
   };
 
   void remake();
+  void make(const globe::scene::Scene& scene);
   void add_choices();
   void add_word_choice(const std::string& name, std::vector<std::string> words, std::string& option);
   void switch_effect(std::size_t index, bool on);

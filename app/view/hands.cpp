@@ -103,7 +103,7 @@ void Hands::strike(const gl::KeyChanged& event) {
     if (middle) {
       navigator.look_at(*middle, glm::distance(*middle, navigator.camera().position), heading_deg, pitch_deg);
     } else {
-      navigator.fly_to({stand.place, {heading_deg, pitch_deg}});
+      navigator.fly_to({stand.place, {heading_deg, pitch_deg, 0.0}});
     }
   };
   if (event.modifiers.control) {
@@ -135,7 +135,7 @@ void Hands::strike(const gl::KeyChanged& event) {
       globe::geo::Geodetic place = stand.place;
       place.h_m = kWholeGlobe * session_.scenery.ellipsoid().mean_radius();
       session_.on_path = false;
-      navigator.fly_to({place, {0.0, -90.0}});
+      navigator.fly_to({place, {0.0, -90.0, 0.0}});
       break;
     }
     case GLFW_KEY_SPACE:

@@ -43,7 +43,7 @@ std::optional<LastView> recall_view(const std::filesystem::path& file, const std
     const auto value = found->find(key);
     return value != found->end() && value->is_string() ? value->get<std::string>() : std::string();
   };
-  LastView view{{{number("lat"), number("lon"), number("alt_m")}, {number("heading"), number("pitch")}},
+  LastView view{{{number("lat"), number("lon"), number("alt_m")}, {number("heading"), number("pitch"), 0.0}},
                 number("moment_s"),
                 text("time"),
                 text("sun")};

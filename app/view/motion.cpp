@@ -124,7 +124,7 @@ Standpoint swung(const Eye& eye, const Standpoint& stand, const dvec3& place, dv
   const dvec3 back = geo::look_direction(frame, azimuth + by_deg.x, lifted);
   around.place = geo::geodetic_from_ecef(eye.ellipsoid, place + way * back);
   if (lifted > 89.99) {
-    around.look = {folded_deg(azimuth + by_deg.x + 180.0), -90.0};
+    around.look = {folded_deg(azimuth + by_deg.x + 180.0), -90.0, 0.0};
     if (glm::length(pixel - 0.5 * eye.size) < 0.5) return around;
   }
   around.look = aimed(eye, around, -back, pixel);

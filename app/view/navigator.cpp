@@ -54,6 +54,7 @@ void Navigator::keep_clear_of(const std::function<double(const dvec3&)>& height_
 }
 
 void Navigator::stop() {
+  stand_.look.roll_deg = 0.0;
   rolling_ = dvec3(0.0);
   zooming_ = {};
   glide_.reset();
@@ -80,7 +81,7 @@ void Navigator::look_at(const dvec3& place, double distance_m, double heading_de
   const geo::LocalFrame frame = geo::local_frame(foot.lat_deg, foot.lon_deg);
   const dvec3 ahead = geo::look_direction(frame, heading_deg, pitch_deg);
   Standpoint to{geo::geodetic_from_ecef(eye_.ellipsoid, place - distance_m * ahead),
-                {heading_deg, pitch_deg}};
+                {heading_deg, pitch_deg, 0.0}};
   if (pitch_deg > -89.9) to.look = aimed(eye_, to, ahead, 0.5 * eye_.size);
   fly_to(to);
 }
@@ -143,6 +144,7 @@ void Navigator::release(double time_s) {
 }
 
 void Navigator::zoom(double notches, dvec2 pixel) {
+  stand_.look.roll_deg = 0.0;
   glide_.reset();
   rolling_ = dvec3(0.0);
   // A wheel that goes on over one pixel keeps the place: what is seen there is drawn anew meanwhile.

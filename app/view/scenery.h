@@ -41,6 +41,9 @@ class Scenery {
   /// Whether time changes the picture.
   virtual bool is_animated() const = 0;
 
+  /// Makes what takes long and a first picture does without; until then there is that only.
+  virtual void complete() = 0;
+
   /// What can be set, in the order of an overlay; the same ones all the time.
   virtual const std::vector<Choice>& choices() const = 0;
 

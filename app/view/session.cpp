@@ -94,7 +94,9 @@ std::string Session::shot_line(const std::string& output) const {
   };
   const Standpoint& stand = navigator.stand();
   say("--at", exact(stand.place.lat_deg) + "," + exact(stand.place.lon_deg) + "," + exact(stand.place.h_m));
-  say("--look", exact(stand.look.heading_deg) + "," + exact(stand.look.pitch_deg));
+  std::string look = exact(stand.look.heading_deg) + "," + exact(stand.look.pitch_deg);
+  if (stand.look.roll_deg != 0.0) look += "," + exact(stand.look.roll_deg);
+  say("--look", look);
   say("--size", std::to_string(canvas.size().x) + "x" + std::to_string(canvas.size().y));
   say("--fov", exact(navigator.eye().fov_deg));
   if (!time_.empty()) say("--time", time_);
@@ -155,7 +157,7 @@ void Session::pass(double seconds, double real_seconds) {
     on_path = false;
   }
   const Flight::View view = flight->at(moment_s / duration, false);
-  navigator.jump_to({view.place, {view.heading_deg, view.pitch_deg}});
+  navigator.jump_to({view.place, view.look});
 }
 
 }  // namespace app::view

@@ -47,7 +47,7 @@ void add_window_options(CLI::App& command, WindowOptions& options) {
 
 /// Where a window begins that nothing is said of: before the whole globe.
 Standpoint whole_globe(const geo::Ellipsoid& ellipsoid) {
-  return {{20.0, 10.0, kWholeGlobe * ellipsoid.mean_radius()}, {0.0, -90.0}};
+  return {{20.0, 10.0, kWholeGlobe * ellipsoid.mean_radius()}, {0.0, -90.0, 0.0}};
 }
 
 void show_globe(WindowOptions options, const CLI::App& command) {

@@ -55,13 +55,19 @@ void draw_panels(Session& session) {
   draw_marks(session);
 }
 
-/// Something to start from: what is seen from high above takes little to load, and the rest comes over the
-/// frames that follow.
-void load_beginning(Session& session) {
+/// The first picture, as soon as there can be one. What is seen from high above takes little to load, and the
+/// rest comes over the frames that follow; effects take longer to make.
+void show_beginning(Session& session) {
   Standpoint high = session.navigator.stand();
   high.place.h_m = std::max(high.place.h_m, kHigh * session.scenery.ellipsoid().mean_radius());
-  session.canvas.draw(session.scenery, session.navigator.eye().camera(high), session.sunlight(),
-                      session.moment_s, true, 0.0);
+  const auto draw = [&](const globe::render::Camera& camera, bool wait) {
+    session.canvas.draw(session.scenery, camera, session.sunlight(), session.moment_s, wait, 0.0);
+  };
+  draw(session.navigator.eye().camera(high), true);
+  draw(session.navigator.camera(), false);
+  session.window.show(session.canvas.picture().resolved_id(), session.canvas.size());
+  session.window.swap();
+  session.scenery.complete();
 }
 
 class Loop {
@@ -80,7 +86,7 @@ class Loop {
   }
 
   std::size_t run(std::optional<int> frames) {
-    load_beginning(session_);
+    show_beginning(session_);
     while (!session_.closes && !session_.window.close_requested()) {
       if (frames && drawn_ >= static_cast<std::size_t>(*frames)) break;
       const bool busy = frames || is_busy();

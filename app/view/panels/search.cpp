@@ -21,7 +21,7 @@ void go_to(Session& session, double lat_deg, double lon_deg, double alt_m, bool 
   const double scale = globe::geo::small_body_scale(session.scenery.ellipsoid());
   session.on_path = false;
   if (has_alt) {
-    session.navigator.fly_to({place, {0.0, -90.0}});
+    session.navigator.fly_to({place, {0.0, -90.0, 0.0}});
   } else {
     session.navigator.look_at(globe::geo::ecef_from_geodetic(session.scenery.ellipsoid(), place),
                               kViewedFrom * scale, 0.0, kViewPitch);
