@@ -12,6 +12,7 @@ if(GLOBE_GRAPHICS)
   pkg_check_modules(Epoxy REQUIRED IMPORTED_TARGET epoxy)
   pkg_check_modules(Egl REQUIRED IMPORTED_TARGET egl)
   pkg_check_modules(Glfw REQUIRED IMPORTED_TARGET glfw3)
+  target_compile_definitions(PkgConfig::Glfw INTERFACE GLFW_INCLUDE_NONE)  # OpenGL's declarations are epoxy's
   pkg_check_modules(ImGui REQUIRED IMPORTED_TARGET imgui)
 endif()
 pkg_check_modules(Erfa REQUIRED IMPORTED_TARGET erfa)

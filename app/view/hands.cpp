@@ -25,9 +25,8 @@ Grip grip_of(const gl::ButtonChanged& event) {
 
 }  // namespace
 
-void Hands::take(const std::vector<gl::WindowEvent>& events) {
-  for (const gl::WindowEvent& event : events)
-    std::visit([&](const auto& happened) { handle(happened); }, event);
+void Hands::take(const gl::WindowEvent& event) {
+  std::visit([&](const auto& happened) { handle(happened); }, event);
 }
 
 void Hands::handle(const gl::PointerMoved& event) {
@@ -84,12 +83,12 @@ void Hands::handle(const gl::KeyChanged& event) {
     held_.erase(event.key);
     return;
   }
-  if (has_keyboard_()) return;
+  if (has_keyboard_() && !event.modifiers.control) return;
   if (!event.repeated && !event.modifiers.control) held_.insert(event.key);
   if (!event.repeated) strike(event);
 }
 
-void Hands::handle(const gl::FocusLost& /*event*/) {
+void Hands::handle(const gl::FocusChanged& /*event*/) {
   held_.clear();
   fast_ = false;
 }

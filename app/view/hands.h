@@ -4,7 +4,6 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <set>
-#include <vector>
 
 #include "app/view/session.h"
 #include "globe/gl/window.h"
@@ -18,7 +17,7 @@ class Hands {
   Hands(Session& session, std::function<bool(glm::dvec2)> has_pointer, std::function<bool()> has_keyboard)
       : session_(session), has_pointer_(std::move(has_pointer)), has_keyboard_(std::move(has_keyboard)) {}
 
-  void take(const std::vector<globe::gl::WindowEvent>& events);
+  void take(const globe::gl::WindowEvent& event);
   /// Moves the camera by the keys that are held.
   void drive();
 
@@ -32,7 +31,9 @@ class Hands {
   void handle(const globe::gl::ButtonChanged& event);
   void handle(const globe::gl::Scrolled& event);
   void handle(const globe::gl::KeyChanged& event);
-  void handle(const globe::gl::FocusLost& event);
+  void handle(const globe::gl::CharacterTyped& /*event*/) {}
+  void handle(const globe::gl::PointerEntered& /*event*/) {}
+  void handle(const globe::gl::FocusChanged& event);
   void press(const globe::gl::ButtonChanged& event);
   void click(const globe::gl::ButtonChanged& event);
   void strike(const globe::gl::KeyChanged& event);

@@ -1,5 +1,6 @@
 #include "app/view/overlay.h"
 
+#include <GLFW/glfw3.h>
 #include <epoxy/gl.h>
 #include <imgui.h>
 #include <imgui/backends/imgui_impl_glfw.h>
@@ -7,9 +8,12 @@
 #include <imgui_internal.h>
 
 #include <filesystem>
+#include <variant>
 
 namespace app::view {
 namespace {
+
+namespace gl = globe::gl;
 
 constexpr float kTextSize = 15.0f;
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
@@ -36,6 +40,13 @@ void load_font(float scale) {
   if (std::filesystem::exists(kFont)) io.Fonts->AddFontFromFileTTF(kFont, kTextSize * scale, nullptr, ranges);
 }
 
+int action(bool down) { return down ? GLFW_PRESS : GLFW_RELEASE; }
+
+int bits(const gl::Modifiers& held) {
+  return (held.shift ? GLFW_MOD_SHIFT : 0) | (held.control ? GLFW_MOD_CONTROL : 0) |
+         (held.alt ? GLFW_MOD_ALT : 0);
+}
+
 }  // namespace
 
 void Overlay::Destroy::operator()(ImGuiContext* context) const {
@@ -49,7 +60,7 @@ std::unique_ptr<Overlay> Overlay::start(const globe::gl::Window& window) {
   std::unique_ptr<Overlay> overlay(new Overlay);
   overlay->context_.reset(ImGui::CreateContext());
   ImGui::GetIO().IniFilename = nullptr;  // where its windows lie is not worth a file
-  if (!ImGui_ImplGlfw_InitForOpenGL(window.handle(), true)) return nullptr;
+  if (!ImGui_ImplGlfw_InitForOpenGL(window.handle(), false)) return nullptr;
   if (!ImGui_ImplOpenGL3_Init("#version 450 core")) return nullptr;
   set_style(window.content_scale());
   load_font(window.content_scale());
@@ -57,6 +68,27 @@ std::unique_ptr<Overlay> Overlay::start(const globe::gl::Window& window) {
 }
 
 Overlay::~Overlay() = default;
+
+void Overlay::hear(const gl::Window& window, const gl::WindowEvent& event) {
+  GLFWwindow* handle = window.handle();
+  if (const auto* button = std::get_if<gl::ButtonChanged>(&event)) {
+    const int number = button->button == gl::MouseButton::kLeft    ? GLFW_MOUSE_BUTTON_LEFT
+                       : button->button == gl::MouseButton::kRight ? GLFW_MOUSE_BUTTON_RIGHT
+                                                                   : GLFW_MOUSE_BUTTON_MIDDLE;
+    ImGui_ImplGlfw_MouseButtonCallback(handle, number, action(button->down), bits(button->modifiers));
+  } else if (const auto* wheel = std::get_if<gl::Scrolled>(&event)) {
+    ImGui_ImplGlfw_ScrollCallback(handle, wheel->by.x, wheel->by.y);
+  } else if (const auto* key = std::get_if<gl::KeyChanged>(&event)) {
+    ImGui_ImplGlfw_KeyCallback(handle, key->key, key->scancode,
+                               key->repeated ? GLFW_REPEAT : action(key->down), bits(key->modifiers));
+  } else if (const auto* typed = std::get_if<gl::CharacterTyped>(&event)) {
+    ImGui_ImplGlfw_CharCallback(handle, typed->code);
+  } else if (const auto* entered = std::get_if<gl::PointerEntered>(&event)) {
+    ImGui_ImplGlfw_CursorEnterCallback(handle, entered->inside ? GLFW_TRUE : GLFW_FALSE);
+  } else if (const auto* focus = std::get_if<gl::FocusChanged>(&event)) {
+    ImGui_ImplGlfw_WindowFocusCallback(handle, focus->focused ? GLFW_TRUE : GLFW_FALSE);
+  }
+}
 
 void Overlay::begin() {
   ImGui_ImplOpenGL3_NewFrame();

@@ -18,6 +18,10 @@ class Overlay {
   Overlay& operator=(const Overlay&) = delete;
   ~Overlay();
 
+  /// Tells it what happened to the window. Keys and buttons that go down and up again between two frames are
+  /// lost on it.
+  void hear(const globe::gl::Window& window, const globe::gl::WindowEvent& event);
+
   /// Between these two calls widgets are described; end() draws them into the window.
   void begin();
   void end(const globe::gl::Window& window);

@@ -7,6 +7,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <deque>
+#include <set>
+#include <variant>
 
 #include "app/frame_budget.h"
 #include "app/frame_clock.h"
@@ -95,10 +98,8 @@ class Loop {
       } else {
         session_.window.wait(kIdle);
       }
-      const std::vector<globe::gl::WindowEvent> events = session_.window.take_events();
-      if (!events.empty()) settling_ = kSettling;
-      hands_.take(events);
-      if (!adopt_size() || (!busy && events.empty() && !is_busy())) {
+      const bool happened = take_events();
+      if (!adopt_size() || (!busy && !happened && !is_busy())) {
         last_ = Clock::now();
         continue;
       }
@@ -111,6 +112,29 @@ class Loop {
 
  private:
   bool shows_widgets() const { return overlay_ && (session_.shows_overlay || !session_.notice().empty()); }
+
+  /// As many events as a frame may show: what went down in it goes up in the next, or widgets would miss it.
+  bool take_events() {
+    for (globe::gl::WindowEvent& event : session_.window.take_events()) waiting_.push_back(std::move(event));
+    if (waiting_.empty()) return false;
+    settling_ = kSettling;
+    std::set<int> pressed;
+    while (!waiting_.empty()) {
+      const globe::gl::WindowEvent& event = waiting_.front();
+      if (const auto* key = std::get_if<globe::gl::KeyChanged>(&event)) {
+        if (key->down) pressed.insert(key->key);
+        if (!key->down && pressed.count(key->key) > 0) break;
+      } else if (const auto* button = std::get_if<globe::gl::ButtonChanged>(&event)) {
+        const int number = -1 - static_cast<int>(button->button);  // beside those of keys
+        if (button->down) pressed.insert(number);
+        if (!button->down && pressed.count(number) > 0) break;
+      }
+      if (overlay_) overlay_->hear(session_.window, event);
+      hands_.take(event);
+      waiting_.pop_front();
+    }
+    return true;
+  }
 
   bool is_busy() const {
     const bool animated = session_.running && (session_.on_path || session_.scenery.is_animated());
@@ -179,6 +203,7 @@ class Loop {
   FrameBudget budget_{std::nullopt};
   Clock::time_point last_ = Clock::now();
   int settling_ = kSettling;
+  std::deque<globe::gl::WindowEvent> waiting_;
   std::size_t drawn_ = 0;
   bool told_loading_ = true;
 };

@@ -1,9 +1,7 @@
 #include "globe/gl/window.h"
 
-#include <epoxy/gl.h>
-// After epoxy, which brings OpenGL's declarations.
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <epoxy/gl.h>
 
 #include <utility>
 
@@ -109,12 +107,18 @@ void Window::listen() {
     Window& window = window_of(handle);
     window.events_.emplace_back(Scrolled{{x, y}, held_modifiers(handle), window.pointer_});
   });
-  glfwSetKeyCallback(window_.get(), [](GLFWwindow* handle, int key, int, int action, int modifiers) {
+  glfwSetKeyCallback(window_.get(), [](GLFWwindow* handle, int key, int scancode, int action, int modifiers) {
     window_of(handle).events_.emplace_back(
-        KeyChanged{key, action != GLFW_RELEASE, action == GLFW_REPEAT, modifiers_of(modifiers)});
+        KeyChanged{key, scancode, action != GLFW_RELEASE, action == GLFW_REPEAT, modifiers_of(modifiers)});
+  });
+  glfwSetCharCallback(window_.get(), [](GLFWwindow* handle, unsigned code) {
+    window_of(handle).events_.emplace_back(CharacterTyped{code});
+  });
+  glfwSetCursorEnterCallback(window_.get(), [](GLFWwindow* handle, int entered) {
+    window_of(handle).events_.emplace_back(PointerEntered{entered == GLFW_TRUE});
   });
   glfwSetWindowFocusCallback(window_.get(), [](GLFWwindow* handle, int focused) {
-    if (focused == GLFW_FALSE) window_of(handle).events_.emplace_back(FocusLost{});
+    window_of(handle).events_.emplace_back(FocusChanged{focused == GLFW_TRUE});
   });
 }
 

@@ -40,13 +40,24 @@ struct Scrolled {
 /// A key by its place, as GLFW numbers it (GLFW_KEY_A is 65).
 struct KeyChanged {
   int key = 0;
+  int scancode = 0;
   bool down = false;
   bool repeated = false;
   Modifiers modifiers;
 };
-/// Keys that were down are to be taken as released.
-struct FocusLost {};
-using WindowEvent = std::variant<PointerMoved, ButtonChanged, Scrolled, KeyChanged, FocusLost>;
+/// A character that was typed, of Unicode.
+struct CharacterTyped {
+  unsigned code = 0;
+};
+struct PointerEntered {
+  bool inside = false;
+};
+/// Without focus, keys that were down are to be taken as released.
+struct FocusChanged {
+  bool focused = false;
+};
+using WindowEvent = std::variant<PointerMoved, ButtonChanged, Scrolled, KeyChanged, CharacterTyped,
+                                 PointerEntered, FocusChanged>;
 
 /// A window on the screen with an OpenGL 4.5 core context (GLFW), current on the thread that made it.
 ///

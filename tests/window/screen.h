@@ -130,12 +130,13 @@ class ViewProgram {
     return await([&] { return screen_.shows("^globe - [^(]*$"); });
   }
 
-  /// Closes it as a person does and gives its exit status.
+  /// Closes it as a person does and gives its exit status; -1 when it does not close.
   int close() {
     screen_.hands({"key", "ctrl+q"});
-    const int status = wait_for(child_);
+    int status = -1;
+    if (!await([&] { return waitpid(child_, &status, WNOHANG) == child_; })) return -1;
     child_ = -1;
-    return status;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
 
   std::string text(const char* stream) const {

@@ -91,7 +91,7 @@ class View : public testing::Test {
       screen_->move_to(x0 + (x1 - x0) * k / 8, y0 + (y1 - y0) * k / 8);
       rest(30);
     }
-    rest(400);  // nothing rolls on
+    rest(1000);  // nothing rolls on
     screen_->hands({"mouseup", button});
     rest(200);
   }
