@@ -124,17 +124,18 @@ float gauss_place(int k) { return k == 0 ? 0.06943184420f : k == 1 ? 0.330009478
 float gauss_weight(int k) { return k == 0 || k == 3 ? 0.17392742257f : 0.32607257743f; }
 
 // Distance along a ray of x in [0, 1] and how fast it grows there. Samples lie evenly by the root of their height above the ray's
-// lowest point, at distance `lowest` between `from` and `to`. `rise` is the radius there times the cosine of the zenith angle.
+// lowest point, at distance `lowest` from `from` to `to`, on both sides of it: a ray that ends soon after it, as those to the limb do,
+// has but a few of them there. `rise` is the radius there times the cosine of the zenith angle.
 vec2 spread_distance(float x, float from, float lowest, float to, float rise) {
-  float begin = lowest > from + 1e-3f ? 0.0f : 0.5f;
-  float end = to > lowest + 1e-3f ? 1.0f : 0.5f;
-  float side = 2.0f * (begin + (end - begin) * x) - 1.0f;
-  float reach = side < 0.0f ? lowest - from : to - lowest;
   float up = abs(rise);
-  float climb = reach * (2.0f * up + reach);
-  float root = max(sqrt(up * up + climb * side * side), 1e-6f);
-  float away = climb * side * side / (up + root);
-  return vec2(side < 0.0f ? lowest - away : lowest + away, 2.0f * (end - begin) * climb * abs(side) / root);
+  float down_to = lowest - from;
+  float up_to = to - lowest;
+  float before = down_to > 1e-3f ? sqrt(down_to * (2.0f * up + down_to)) : 0.0f;
+  float after = up_to > 1e-3f ? sqrt(up_to * (2.0f * up + up_to)) : 0.0f;
+  float side = (before + after) * x - before;
+  float root = max(sqrt(up * up + side * side), 1e-6f);
+  float away = side * side / (up + root);
+  return vec2(side < 0.0f ? lowest - away : lowest + away, (before + after) * abs(side) / root);
 }
 
 // Light of the air along a ray. `panels`, even, of four samples each; what is scattered again is looked up for every sample or, where
