@@ -46,6 +46,11 @@ std::optional<scene::Scene> take_scene(const CLI::App& command, CameraOptions& o
 
 std::optional<scene::Scene> take_scene(const CLI::App& command, ViewOptions& options) {
   std::optional<scene::Scene> scene = take_scene(command, static_cast<CameraOptions&>(options));
+  if (options.marks.any()) {
+    // Without a scene one that asks for nothing else.
+    if (!scene) scene.emplace().file = "command line";
+    add_marks(options.marks, options.optics.projection == "perspective", *scene);
+  }
   if (!scene) return scene;
   const scene::Picture& picture = scene->picture;
   take(command, "--samples", options.samples, picture.samples);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/mark_options.h"
 #include "app/optics.h"
 #include "globe/geo/ellipsoid.h"
 #include "globe/geo/utc.h"
@@ -50,6 +51,7 @@ struct ViewOptions : CameraOptions {
   bool quiet = false;
   std::string device = "auto";
   int memory_mb = 640;
+  MarkOptions marks;
   /// Bare where an effect of the scene draws the sea.
   globe::planet::SeaFloor sea_floor = globe::planet::SeaFloor::kFlooded;
 };
