@@ -19,16 +19,8 @@ void take(const CLI::App& command, const char* option, Value& value, const std::
   if (said && found != nullptr && found->count() == 0) value = *said;
 }
 
-scene::Scene empty_scene(const std::string& planet) {
-  scene::Scene scene;
-  scene.file = "--with";
-  scene.planet = planet;
-  return scene;
-}
-
 /// --with and --without.
 void change_effects(std::optional<scene::Scene>& scene, const ViewOptions& options) {
-  if (!scene && !options.with.empty()) scene = empty_scene(options.planet);
   for (const std::string& name : options.with) add_effect(*scene, name);
   for (const std::string& name : options.without) {
     if (!scene || std::erase_if(scene->effects, [&](const auto& effect) { return effect.name == name; }) == 0)
@@ -79,6 +71,12 @@ void add_effect(scene::Scene& scene, const std::string& name) {
 
 std::optional<scene::Scene> take_scene(const CLI::App& command, ViewOptions& options) {
   std::optional<scene::Scene> scene = take_scene(command, static_cast<CameraOptions&>(options));
+  // Without a scene one that asks for nothing else.
+  if (!scene && (options.marks.any() || !options.with.empty())) {
+    scene.emplace().file = "command line";
+    scene->planet = options.planet;
+  }
+  if (options.marks.any()) add_marks(options.marks, options.optics.projection == "perspective", *scene);
   change_effects(scene, options);
   if (!scene) return scene;
   const scene::Picture& picture = scene->picture;

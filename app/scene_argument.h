@@ -13,6 +13,7 @@ namespace app {
 /// picture it asks for are then taken into the options, unless the command line says otherwise; the rest is
 /// up to the command. Throws what globe::scene::read_scene throws.
 std::optional<globe::scene::Scene> take_scene(const CLI::App& command, CameraOptions& options);
+/// The same with what --shapes, --graticule and --labels ask for, a scene even where no file is named.
 std::optional<globe::scene::Scene> take_scene(const CLI::App& command, ViewOptions& options);
 
 /// Has the scene ask for an effect as it usually is, in place of one that it has. Throws UsageError for one

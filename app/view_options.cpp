@@ -96,6 +96,7 @@ void add_picture_options(CLI::App& command, ViewOptions& options) {
 void add_drawing_options(CLI::App& command, ViewOptions& options) {
   add_camera_options(command, options);
   add_picture_options(command, options);
+  add_mark_options(command, options.marks);
   command
       .add_option("--positions", options.positions,
                   "places of vertices: exact; or, to see what accuracy costs, quadratic, chord or float32")

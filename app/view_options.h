@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/mark_options.h"
 #include "app/optics.h"
 #include "globe/geo/ellipsoid.h"
 #include "globe/geo/utc.h"
@@ -53,6 +54,7 @@ struct ViewOptions : CameraOptions {
   std::string device = "auto";
   int memory_mb = 640;
   std::vector<std::string> with, without;  ///< effects besides those of a scene, and its own left out
+  MarkOptions marks;
   /// Bare where an effect of the scene draws the sea.
   globe::planet::SeaFloor sea_floor = globe::planet::SeaFloor::kFlooded;
 };

@@ -14,6 +14,7 @@ if(GLOBE_GRAPHICS)
   pkg_check_modules(Glfw REQUIRED IMPORTED_TARGET glfw3)
   target_compile_definitions(PkgConfig::Glfw INTERFACE GLFW_INCLUDE_NONE)  # OpenGL's declarations are epoxy's
   pkg_check_modules(ImGui REQUIRED IMPORTED_TARGET imgui)
+  pkg_check_modules(FreeType REQUIRED IMPORTED_TARGET freetype2)
 endif()
 pkg_check_modules(Erfa REQUIRED IMPORTED_TARGET erfa)
 pkg_check_modules(Tiff REQUIRED IMPORTED_TARGET libtiff-4)

@@ -170,6 +170,12 @@ std::vector<std::string> GlobeScenery::shot_words() const {
   if (!options_.show.empty()) say("--show", options_.show);
   if (scene_ || options_.positions != usual.positions) say("--positions", options_.positions);
   if (scene_ || options_.window != usual.window) say("--window", options_.window);
+  for (const std::string& file : options_.marks.shapes) say("--shapes", file);
+  if (options_.marks.graticule) {
+    words.emplace_back("--graticule");
+    if (!options_.marks.graticule->empty()) words.push_back(*options_.marks.graticule);
+  }
+  if (!options_.marks.labels.empty()) say("--labels", options_.marks.labels);
   for (const EffectChoice& effect : effects_) {
     if (effect.on && !effect.in_scene) say("--with", effect.name);
     if (!effect.on && effect.in_scene) say("--without", effect.name);

@@ -39,10 +39,12 @@ struct ShapesParameters {
 struct LabelsParameters {
   std::vector<std::filesystem::path> files;
   std::string property;  ///< that holds the name; empty: name, NAME, label, title in this order
-  std::string priority;  ///< numeric property: the higher, the more it matters; empty: file order
+  std::string priority;  ///< numeric property: the higher, the more it matters; empty: what files
+                         ///< usually have (read_named_places), else their order
   std::optional<GraticuleParameters> graticule;  ///< whose lines are to be named
   glm::vec3 color{1.0f, 1.0f, 1.0f};
-  double size_px = 15.0;  ///< of letters
+  double size_px = 15.0;       ///< of letters
+  std::filesystem::path font;  ///< a font's file; empty: DejaVu Sans
 };
 
 }  // namespace globe::effects

@@ -13,6 +13,7 @@
 
 #include "globe/base/error.h"
 #include "globe/effects/entry.h"
+#include "globe/effects/ground_in_view.h"
 #include "globe/effects/map_eye.h"
 #include "globe/effects/mark_parameters.h"
 #include "globe/effects/shape_cells.h"
@@ -32,7 +33,6 @@ constexpr double kFar_m = 60e3;         ///< of the eye: there the planet's high
 constexpr double kSteepest = 2.0;       ///< rise over run of the ground under a piece of a line
 constexpr double kCoarser = 0.03;       ///< that the ground drawn may be off, of its distance
 constexpr float kHaloOpacity = 0.55f;
-constexpr double kBuiltinHeight_m = 12e3;  ///< no ground of the built-in planet is farther from 0
 
 ShapeLayer read_layer(scene::Fields& fields) {
   ShapeLayer layer;
@@ -63,7 +63,7 @@ struct ShapesBlock {
   std::array<glm::vec4, kMostFilled> color;
   std::array<glm::ivec4, kMostFilled> table;
   glm::dvec2 eye_deg;
-  glm::ivec2 layers;
+  glm::ivec4 layers;
 };
 
 /// A layer as it is read.
@@ -167,28 +167,6 @@ Layer read_file(const ShapeLayer& look, const geo::Ellipsoid& ellipsoid) {
   return layer;
 }
 
-/// Lowest and highest ground of a planet as it is drawn, with room for what is synthesised below its data.
-glm::dvec2 heights_of(const planet::Surface& surface) {
-  double low = -kBuiltinHeight_m, high = kBuiltinHeight_m;
-  if (const planet::Dataset* dataset = surface.dataset()) {
-    low = high = 0.0;
-    if (const planet::LayerInfo* layer = dataset->layer("height")) {
-      low = layer->min;
-      high = layer->max;
-    }
-    for (const planet::InsetInfo& inset : surface.info().insets) {
-      if (inset.layer != "height") continue;
-      low = std::min(low, inset.min);
-      high = std::max(high, inset.max);
-    }
-    const double more = 0.1 * (high - low) + 100.0;
-    low -= more;
-    high += more;
-  }
-  const double top = surface.drawn_height(high) + (surface.has_bare_floor() ? planet::kHighestWave : 0.0);
-  return {surface.mesh_height(low), std::max(top, surface.mesh_height(low) + 1.0)};
-}
-
 /// Points, lines and polygons of GeoJSON files on whatever surface is drawn.
 ///
 /// What is inside polygons is decided for each pixel of the ground in its own program. Lines and points are
@@ -197,7 +175,7 @@ glm::dvec2 heights_of(const planet::Surface& surface) {
 class Shapes final : public render::Effect {
  public:
   Shapes(const ShapesParameters& parameters, const planet::Surface& surface)
-      : error_px_(parameters.error_px), heights_(heights_of(surface)) {
+      : error_px_(parameters.error_px), heights_(drawn_heights(surface)) {
     for (const ShapeLayer& look : parameters.layers) {
       Layer& layer = layers_.emplace_back(read_file(look, surface.ellipsoid()));
       if (look.fill > 0.0 && !layer.polygons.empty()) {
@@ -245,24 +223,23 @@ class Shapes final : public render::Effect {
   }
 
   void prepare(const render::EffectView& view, const render::Bindings& bindings) override {
-    if (!filled_.empty()) {
-      if (tables_.size() == 0) make_tables();
-      const geo::Geodetic eye = geo::geodetic_from_ecef(view.surface.ellipsoid(), view.camera.position);
-      ShapesBlock block{};
-      block.eye = map_eye(view.surface.ellipsoid(), eye);
-      for (std::size_t k = 0; k < filled_.size(); ++k) {
-        block.color[k] = glm::vec4(filled_[k].look.color, static_cast<float>(filled_[k].look.fill));
-        block.table[k] = filled_[k].words;
-      }
-      block.eye_deg = {eye.lon_deg, eye.lat_deg};
-      block.layers = {static_cast<int>(filled_.size()), 0};
-      block_.bind(block, bindings.block);
-      tables_.bind_base(GL_SHADER_STORAGE_BUFFER, bindings.block);
+    if (filled_.empty()) return;
+    if (tables_.size() == 0) make_tables();
+    const geo::Geodetic eye = geo::geodetic_from_ecef(view.surface.ellipsoid(), view.camera.position);
+    ShapesBlock block{};
+    block.eye = map_eye(view.surface.ellipsoid(), eye);
+    for (std::size_t k = 0; k < filled_.size(); ++k) {
+      block.color[k] = glm::vec4(filled_[k].look.color, static_cast<float>(filled_[k].look.fill));
+      block.table[k] = filled_[k].words;
     }
-    find_arcs(view);
+    block.eye_deg = {eye.lon_deg, eye.lat_deg};
+    block.layers.x = static_cast<int>(filled_.size());
+    block_.bind(block, bindings.block);
+    tables_.bind_base(GL_SHADER_STORAGE_BUFFER, bindings.block);
   }
 
   void draw(const render::EffectView& view) override {
+    find_arcs(view);
     if (arcs_.empty()) return;
     const gl::Framebuffer& picture = view.target;
     picture.resolve();
@@ -334,16 +311,14 @@ class Shapes final : public render::Effect {
                heights.x,
                heights.y,
                {}} {
-      const bool whole = of.serving == render::Serving::kItsSet;
-      const double root_m = of.surface.root_edge();
       const double far_m = kFar_m * geo::small_body_scale(of.surface.ellipsoid());
-      view.ground = [&surface = of.surface, heights, whole, root_m, far_m](
-                        const glm::dvec3& u, double within_m, double distance_m) -> glm::dvec2 {
+      view.ground = [&of, heights, far_m](const glm::dvec3& u, double within_m,
+                                          double distance_m) -> glm::dvec2 {
+        const planet::Surface& surface = of.surface;
         const double slack =
             kSteepest * within_m * std::max(surface.exaggeration(), 1.0) + kCoarser * distance_m;
         if (distance_m > far_m || 2.0 * slack > heights.y - heights.x) return heights;
-        const int level = std::clamp(static_cast<int>(std::log2(32.0 * root_m / distance_m)), 0, 24);
-        const double h = whole ? surface.height(u, level) : surface.height_at_hand(u, level);
+        const double h = ground_height(of, u, distance_m);
         const double wave = surface.has_bare_floor() && h < planet::kHighestWave ? planet::kHighestWave : 0.0;
         return {std::max(surface.mesh_height(h) - slack, heights.x),
                 std::min(surface.drawn_height(h) + wave + slack, heights.y)};

@@ -7,7 +7,7 @@ layout(std140, binding = SHAPES_BLOCK) uniform Shapes {
   vec4 color[8];  // of the layers, as the screen shows it; w: opacity
   ivec4 table[8];  // x: the layer's first table of cells, y: where its edges begin, in words
   dvec2 eye_deg;   // longitude and latitude
-  ivec2 layers;    // x: how many
+  ivec4 layers;    // x: how many
 } shapes;
 
 layout(std430, binding = SHAPES_BLOCK) readonly buffer ShapeTables {
