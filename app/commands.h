@@ -31,6 +31,8 @@ void add_explain(CLI::App& program);
 void add_export(CLI::App& program);
 void add_find(CLI::App& program);
 void add_flat(CLI::App& program);
+/// `globe flat view`.
+void add_flat_view(CLI::App& flat);
 void add_fly(CLI::App& program);
 void add_pick(CLI::App& program, int& exit_status);
 void add_profile(CLI::App& program);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/parse_options.h"
+#include "app/planet_argument.h"
 #include "app/records.h"
 #include "app/scene_argument.h"
 #include "globe/base/error.h"
@@ -84,7 +85,7 @@ void GlobeScenery::make(const globe::scene::Scene& scene) {
   }
 }
 
-bool GlobeScenery::is_animated() const { return renderer_->moves(); }
+bool GlobeScenery::is_animated() const { return renderer_->moves() || options_.sun.speed != 0.0; }
 
 void GlobeScenery::add_word_choice(const std::string& name, std::vector<std::string> words,
                                    std::string& option) {

@@ -147,7 +147,7 @@ void Session::tell(const std::string& text) {
 
 void Session::pass(double seconds, double real_seconds) {
   real_s_ += real_seconds;
-  if (running) moment_s += seconds;
+  if (running && (flight || scenery.is_animated())) moment_s += seconds;
   if (!notice_.empty() && (notice_s_ -= real_seconds) <= 0.0) notice_.clear();
   if (!on_path) return;
   const double duration = flight->duration_s();

@@ -47,8 +47,7 @@ struct SessionSettings {
   std::string features;                  ///< database for searching; empty: none
   std::filesystem::path folder = ".";    ///< for pictures and films
   bool shows_overlay = true;
-  std::optional<int> frames;  ///< after which the window closes
-  bool plays = false;         ///< along the path at first
+  bool plays = false;  ///< along the path at first
 };
 
 /// What happens in a window: everything that its panels and its keys act on.

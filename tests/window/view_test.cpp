@@ -151,31 +151,48 @@ TEST_F(View, ASearchFliesToThePlace) {
   EXPECT_NEAR(middle.lon_deg, 20.5, 0.01);
 }
 
-TEST_F(View, APictureIsTheOneThatItsCommandDraws) {
-  const auto program = open({{36.0, -105.0, 9e5}, {20.0, -50.0}});
-  drag("1", 500, 240, 520, 260);
-  ASSERT_TRUE(program->await_rest());
-  screen_->hands({"key", "p"});
-  const std::string file = (folder_ / "globe-1.png").string();
+std::vector<std::uint8_t> pixels_of(const std::string& path) {
+  const auto input = OIIO::ImageInput::open(path);
+  std::vector<std::uint8_t> all;
+  if (!input) return all;
+  all.resize(static_cast<std::size_t>(input->spec().image_pixels()) * 3);
+  input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, all.data());
+  return all;
+}
+
+/// Has a picture saved, closes the window, and draws the picture anew by the command that was told.
+void expect_the_same_picture(const Screen& screen, ViewProgram& program,
+                             const std::filesystem::path& folder) {
+  screen.hands({"key", "p"});
+  const std::string file = (folder / "globe-1.png").string();
   ASSERT_TRUE(ViewProgram::await([&] { return std::filesystem::exists(file); }));
-  EXPECT_EQ(program->close(), 0) << program->text("err");
-  std::string line = program->text("out");
-  ASSERT_TRUE(line.starts_with("globe shot procedural ")) << line;
+  EXPECT_EQ(program.close(), 0) << program.text("err");
+  std::string line = program.text("out");
+  ASSERT_TRUE(line.starts_with("globe ")) << line;
   const std::size_t name = line.rfind(" -o ");
-  line = GLOBE_PROGRAM + line.substr(5, name - 5) + " -o " + (folder_ / "shot.png").string() +
-         " --device software";
-  output_of(line);
-  const auto pixels = [](const std::string& path) {
-    const auto input = OIIO::ImageInput::open(path);
-    std::vector<std::uint8_t> all;
-    if (!input) return all;
-    all.resize(static_cast<std::size_t>(input->spec().image_pixels()) * 3);
-    input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, all.data());
-    return all;
-  };
-  const auto seen = pixels(file), shot = pixels((folder_ / "shot.png").string());
-  ASSERT_EQ(seen.size(), std::size_t{kWidth} * kHeight * 3);
-  EXPECT_TRUE(seen == shot);
+  const std::string shot = (folder / "shot.png").string();
+  output_of(GLOBE_PROGRAM + line.substr(5, name - 5) + " -o " + shot + " --device software");
+  EXPECT_FALSE(pixels_of(file).empty());
+  EXPECT_TRUE(pixels_of(file) == pixels_of(shot)) << line;
+}
+
+TEST_F(View, APictureIsTheOneThatItsCommandDraws) {
+  const auto program = open({{36.0, -105.0, 9e5}, {20.0, -50.0}}, {"--graticule", "--with", "clouds"});
+  drag("1", 500, 240, 520, 260);
+  screen_->hands({"key", "space"});  // the clouds stand
+  ASSERT_TRUE(program->await_rest());
+  expect_the_same_picture(*screen_, *program, folder_.path());
+}
+
+TEST_F(View, APictureOfFractalGroundIsTheOneThatItsCommandDraws) {
+  ViewProgram program(*screen_, {"fractal:3", "--size", "320x240", "--folder", folder_.path().string()},
+                      folder_.path());
+  ASSERT_TRUE(program.await_rest()) << program.text("err");
+  screen_->move_to(200, 120);
+  screen_->hands({"click", "4"});
+  rest(700);
+  ASSERT_TRUE(program.await_rest());
+  expect_the_same_picture(*screen_, program, folder_.path());
 }
 
 TEST_F(View, AWindowOfAnotherSizeHasAnotherPicture) {

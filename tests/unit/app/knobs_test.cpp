@@ -36,7 +36,7 @@ const Words kNoKnobs{
     "--refraction", "--suite", "--only", "--hard", "--compare", "--rounds", "--verify", "lookup --level",
     "height --level", "profile --level", "export --level", "flat --center", "flat --side", "flat --shadows",
     "flat --materials", "flat --cloud-shadows", "flat endless --height", "flat endless --speed",
-    "flat endless --sight",
+    "flat endless --sight", "--shapes", "--graticule", "--labels",
     // of fractal ground: which ground that is, and how much of it is there
     "--iterations", "--roughness", "--relief", "--area", "--base", "--contrast", "--method",
     "flat endless --block", "flat endless --blocks",
