@@ -22,6 +22,10 @@ constexpr double kLeast = 2.0;             ///< metres above ground
 
 double ground_z(const flat::Terrain& terrain, const dvec3& at) { return terrain.z_at(at.x, at.y); }
 
+double above_ground(const flat::Terrain& terrain, const geo::Geodetic& place) {
+  return std::max(terrain.height_above(geo::ecef_from_geodetic(terrain.frame().ellipsoid(), place)), kLeast);
+}
+
 }  // namespace
 
 FlatView overview(const flat::Terrain& terrain) {
@@ -43,17 +47,19 @@ FlatFlight::FlatFlight(const flat::Terrain& terrain, const FlatView& from, const
     : terrain_(terrain),
       from_(from),
       to_(to),
-      begin_(terrain.frame().local_from_geodetic(from.place)),
-      end_(terrain.frame().local_from_geodetic(to.place)),
+      from_above_m_(above_ground(terrain, from.place)),
+      to_above_m_(above_ground(terrain, to.place)),
+      from_ground_m_(from.place.h_m - from_above_m_),
+      to_ground_m_(to.place.h_m - to_above_m_),
+      path_(geo::normal_from_degrees(from.place.lat_deg, from.place.lon_deg), from_above_m_,
+            geo::normal_from_degrees(to.place.lat_deg, to.place.lon_deg), to_above_m_,
+            terrain.frame().ellipsoid().mean_radius(), 0.0, 0.0),
       raised_m_(kPathSamples + 1) {
   std::vector<double> missing(raised_m_.size());
-  const double from_above = begin_.z - ground_z(terrain, begin_);
-  const double to_above = end_.z - ground_z(terrain, end_);
   for (int k = 0; k <= kPathSamples; ++k) {
-    const double t = static_cast<double>(k) / kPathSamples;
-    const dvec3 at = glm::mix(begin_, end_, t);
-    const double keep = std::max(kKept * (from_above + (to_above - from_above) * t), kLeast);
-    missing[static_cast<std::size_t>(k)] = std::max(ground_z(terrain, at) + keep - at.z, 0.0);
+    const Planned plan = planned(static_cast<double>(k) / kPathSamples);
+    const double keep = std::max(kKept * plan.above_m, kLeast);
+    missing[static_cast<std::size_t>(k)] = std::max(ground_z(terrain, plan.at) + keep - plan.at.z, 0.0);
   }
   // The highest within reach, then the mean of that within reach: smooth, and nowhere too low.
   const auto within_reach = [&](const std::vector<double>& of, int k, const auto& take) {
@@ -76,17 +82,31 @@ FlatFlight::FlatFlight(const flat::Terrain& terrain, const FlatView& from, const
   }
 }
 
+FlatFlight::Planned FlatFlight::planned(double t) const {
+  const globe::scene::PathPoint point = path_.at(t);
+  const double eased = globe::scene::FlightPath::eased(t);
+  geo::Geodetic place = geo::degrees_from_normal(point.u);
+  place.h_m = point.height_m + glm::mix(from_ground_m_, to_ground_m_, eased);
+  // From one end's look to the other's, but down where the way leads higher than from one end's height to the
+  // other's.
+  const double level_m = from_above_m_ * std::pow(to_above_m_ / from_above_m_, eased);
+  const double pitch_deg = glm::mix(from_.look.pitch_deg, to_.look.pitch_deg, eased);
+  return {terrain_.frame().local_from_geodetic(place), point.height_m,
+          globe::scene::pitch_for_height(std::max(point.height_m, level_m), level_m, pitch_deg)};
+}
+
 FlatView FlatFlight::at(double t) const {
-  const double eased = t * t * (3.0 - 2.0 * t);
-  const double sample = eased * kPathSamples;
+  const double sample = t * kPathSamples;
   const auto k = std::min(static_cast<std::size_t>(sample), raised_m_.size() - 2);
   const double share = sample - static_cast<double>(k);
-  dvec3 at = glm::mix(begin_, end_, eased);
-  at.z += raised_m_[k] + (raised_m_[k + 1] - raised_m_[k]) * share;
+  const double eased = globe::scene::FlightPath::eased(t);
+  Planned plan = planned(t);
+  plan.at.z += glm::mix(raised_m_[k], raised_m_[k + 1], share);
+  plan.at.z = std::max(plan.at.z, ground_z(terrain_, plan.at) + kLeast);
   const double turn = std::remainder(to_.look.heading_deg - from_.look.heading_deg, 360.0);
-  return {terrain_.frame().geodetic_from_local(at),
-          {from_.look.heading_deg + turn * eased,
-           from_.look.pitch_deg + (to_.look.pitch_deg - from_.look.pitch_deg) * eased}};
+  return {terrain_.frame().geodetic_from_local(plan.at),
+          {from_.look.heading_deg + turn * eased, plan.pitch_deg,
+           glm::mix(from_.look.roll_deg, to_.look.roll_deg, eased)}};
 }
 
 }  // namespace app

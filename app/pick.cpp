@@ -25,6 +25,7 @@
 #include "globe/clipmap/ground_below.h"
 #include "globe/render/camera.h"
 #include "globe/render/globe_renderer.h"
+#include "globe/render/region_below.h"
 
 namespace app {
 namespace {
@@ -78,12 +79,9 @@ class Picker {
     const auto settings = clipmap_settings(options.camera);
     const int max_level = render::RenderSettings{}.max_level;
     const auto above = [&](const glm::dvec3& position) {
-      const double share = region_ ? flat::own_share(*region_->terrain, position) : 0.0;
-      double height = share > 0.0 ? share * region_->terrain->height_above(position) : 0.0;
-      if (share < 1.0)
-        height += (1.0 - share) *
-                  globe::clipmap::height_above_ground(settings, *surface, position, max_level, true);
-      return height;
+      return render::height_above_ground(
+          settings, *surface, position, max_level, true,
+          region_ ? flat::region_below(*region_->terrain, position) : render::RegionBelow{});
     };
     const Standpoint stand = standpoint(options.stand, options.camera, scene, surface, max_level, above);
     camera_ =

@@ -22,10 +22,8 @@ GlobeRegion::GlobeRegion(std::shared_ptr<const Terrain> terrain, GroundKnowledge
   settings_.has_rim = true;
 }
 
-double GlobeRegion::share_at(const glm::dvec3& position) const { return own_share(*terrain_, position); }
-
-double GlobeRegion::height_above_ground(const glm::dvec3& position) const {
-  return terrain_->height_above(position);
+render::RegionBelow GlobeRegion::below(const glm::dvec3& position) const {
+  return region_below(*terrain_, position);
 }
 
 void GlobeRegion::compile(const render::EffectHost& host, const planet::Coloring* coloring) {

@@ -22,8 +22,7 @@ class GlobeRegion : public render::RegionRenderer {
   GlobeRegion(std::shared_ptr<const Terrain> terrain, GroundKnowledge knowledge, GroundSettings settings);
 
   const render::Room& room() const override { return room_; }
-  double share_at(const glm::dvec3& position) const override;
-  double height_above_ground(const glm::dvec3& position) const override;
+  render::RegionBelow below(const glm::dvec3& position) const override;
   void compile(const render::EffectHost& host, const planet::Coloring* coloring) override;
   void begin_frame(const glm::dvec3& sun, bool wait) override;
   void draw(const render::RegionView& view) override;

@@ -153,14 +153,14 @@ Rim make_rim(const Terrain& terrain, const Cutter& cut) {
   return rim;
 }
 
-double own_share(const Terrain& terrain, const dvec3& position) {
+render::RegionBelow region_below(const Terrain& terrain, const dvec3& position) {
   const render::Room room = room_of(terrain);
-  if (glm::dot(position, room.axes[2]) < 0.0) return 0.0;  // the planet's other half lies in the same prism
+  if (glm::dot(position, room.axes[2]) < 0.0) return {};  // the planet's other half lies in the same prism
   const glm::dvec4 inside = room.inside_m(position) / terrain.spacing_m() - kCollarPosts;
   const double aside = std::min(inside.x, inside.y), along = std::min(inside.z, inside.w);
-  if (aside <= 0.0 || along <= 0.0) return 0.0;
+  if (aside <= 0.0 || along <= 0.0) return {};
   const int band = rim_band(terrain);
-  return (1.0 - lift_share(aside, band)) * (1.0 - lift_share(along, band));
+  return {(1.0 - lift_share(aside, band)) * (1.0 - lift_share(along, band)), terrain.height_above(position)};
 }
 
 float lift_at(const Rim& rim, const PostRect& posts, int column, int row) {

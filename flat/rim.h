@@ -9,6 +9,7 @@
 #include "flat/patch_mesh.h"
 #include "flat/terrain.h"
 #include "globe/clipmap/cut.h"
+#include "globe/render/region_below.h"
 #include "globe/render/room.h"
 
 namespace globe::flat {
@@ -53,9 +54,8 @@ using Cutter = std::function<std::vector<std::array<dvec3, 2>>(const clipmap::Cu
 
 Rim make_rim(const Terrain& terrain, const Cutter& cut);
 
-/// How far the ground under a place (ECEF) is the region's own: 0 where it does not lie under it, 1 where it
-/// does, beside its rim between the two.
-double own_share(const Terrain& terrain, const dvec3& position);
+/// What a region that lies in other ground is of the ground under a camera at a place (ECEF).
+render::RegionBelow region_below(const Terrain& terrain, const dvec3& position);
 
 /// What a vertex is lifted by, metres; the same as in shaders/flat/lift.glsl.
 float lift_at(const Rim& rim, const PostRect& posts, int column, int row);

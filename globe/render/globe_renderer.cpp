@@ -13,6 +13,7 @@
 #include "globe/clipmap/ground_below.h"
 #include "globe/render/ground_program.h"
 #include "globe/render/ground_state.h"
+#include "globe/render/region_below.h"
 #include "globe/render/tone.h"
 #include "globe/render/view_block.h"
 
@@ -95,12 +96,8 @@ void GlobeRenderer::switch_effect(const std::string& name, bool on) {
 }
 
 double GlobeRenderer::height_above_ground(const glm::dvec3& position, bool wait) const {
-  const double share = region_ ? region_->share_at(position) : 0.0;
-  double above = share > 0.0 ? share * region_->height_above_ground(position) : 0.0;
-  if (share < 1.0)
-    above += (1.0 - share) *
-             clipmap::height_above_ground(settings_.clipmap, *surface_, position, settings_.max_level, wait);
-  return above;
+  return render::height_above_ground(settings_.clipmap, *surface_, position, settings_.max_level, wait,
+                                     region_ ? region_->below(position) : RegionBelow{});
 }
 
 double GlobeRenderer::nearest_drawn(const glm::dvec3& position, bool wait) const {

@@ -10,6 +10,7 @@
 #include "globe/render/camera.h"
 #include "globe/render/effect.h"
 #include "globe/render/effect_program.h"
+#include "globe/render/region_below.h"
 #include "globe/render/room.h"
 
 namespace globe::render {
@@ -37,11 +38,8 @@ class RegionRenderer {
 
   /// The same all the time.
   virtual const Room& room() const = 0;
-  /// How far the ground under a place is the region's own: 0 where it does not lie under it, 1 where it does,
-  /// beside its rim between the two, as the one ground goes over into the other.
-  virtual double share_at(const glm::dvec3& position) const = 0;
-  /// Height of a camera above that own ground, metres. REQUIRES: share_at > 0.
-  virtual double height_above_ground(const glm::dvec3& position) const = 0;
+  /// What it is of the ground under a camera at a place (ECEF).
+  virtual RegionBelow below(const glm::dvec3& position) const = 0;
 
   /// Makes what it draws with, parts of effects included; once, before the first frame.
   /// @param coloring  the look of the ground, where an effect gives it one; null: none
