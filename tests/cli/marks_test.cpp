@@ -54,16 +54,16 @@ TEST_F(Marks, EachOptionShowsInThePicture) {
   const std::string none = shot({}), shapes = shot({"--shapes", field, "--labels", "off"}),
                     named = shot({"--shapes", field}), lines = shot({"--graticule", "--labels", "off"}),
                     narrow = shot({"--graticule", "0.001", "--labels", "off"});
-  EXPECT_NE(shapes, none);
-  EXPECT_NE(named, shapes);
-  EXPECT_NE(lines, none);
-  EXPECT_NE(narrow, lines);
-  EXPECT_EQ(shot({"--labels", "off"}), none);
+  EXPECT_TRUE(shapes != none);
+  EXPECT_TRUE(named != shapes);
+  EXPECT_TRUE(lines != none);
+  EXPECT_TRUE(narrow != lines);
+  EXPECT_TRUE(shot({"--labels", "off"}) == none);
 }
 
 TEST_F(Marks, WhatIsOutOfViewLeavesThePictureAsItIs) {
   const std::string far = write("far.geojson", R"({"type":"LineString","coordinates":[[10,20],[11,21]]})");
-  EXPECT_EQ(shot({"--shapes", far}), shot({}));
+  EXPECT_TRUE(shot({"--shapes", far}) == shot({}));
 }
 
 TEST_F(Marks, AScenesTablesAndTheOptionsDrawTheSame) {
@@ -72,13 +72,14 @@ TEST_F(Marks, AScenesTablesAndTheOptionsDrawTheSame) {
       write("scene.toml", "[effects.shapes]\nfile = \"field.geojson\"\ncolor = \"ffd133\"\n");
   const Outcome run = run_program(with(with({"shot", scene, "-o", file("scene.png")}, kSmall), kAbove));
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(cli::text_of(file("scene.png")), shot({"--shapes", file("field.geojson"), "--labels", "off"}));
+  EXPECT_TRUE(cli::text_of(file("scene.png")) ==
+              shot({"--shapes", file("field.geojson"), "--labels", "off"}));
 }
 
 TEST_F(Marks, ACoverDrapesAsItIs) {
   const Outcome cover = run_program({"cover", "--cone", "-43.4,-106.4,3km", "--level", "14", "--geojson"});
   ASSERT_EQ(cover.status, 0) << cover.err;
-  EXPECT_NE(shot({"--shapes", write("cover.geojson", cover.out)}), shot({}));
+  EXPECT_TRUE(shot({"--shapes", write("cover.geojson", cover.out)}) != shot({}));
 }
 
 TEST_F(Marks, FlightsAndExplainTakeThemToo) {
