@@ -18,7 +18,7 @@ namespace effects = globe::effects;
 namespace scene = globe::scene;
 
 /// Of files, one after the other.
-constexpr std::array kColors{0xffd133u, 0x5cccffu, 0xff7aaeu, 0x94e66bu, 0xff9e52u, 0xbda3ffu};
+constexpr std::array kMarkColors{0xffd133u, 0x5cccffu, 0xff7aaeu, 0x94e66bu, 0xff9e52u, 0xbda3ffu};
 
 bool is_named(const scene::Scene& in, const std::string& name) {
   return std::any_of(in.effects.begin(), in.effects.end(),
@@ -56,7 +56,7 @@ void add_shapes(const std::vector<std::string>& files, scene::Scene& in) {
   for (const std::string& file : files) {
     effects::ShapeLayer layer;
     layer.file = file;
-    layer.color = effects::mark_color(kColors[shapes.layers.size() % kColors.size()]);
+    layer.color = effects::mark_color(kMarkColors[shapes.layers.size() % kMarkColors.size()]);
     shapes.layers.push_back(std::move(layer));
   }
 }
