@@ -18,9 +18,7 @@ namespace effects = globe::effects;
 namespace scene = globe::scene;
 
 /// Of files, one after the other.
-constexpr std::array kColors{glm::vec3(1.00f, 0.82f, 0.20f), glm::vec3(0.36f, 0.80f, 1.00f),
-                             glm::vec3(1.00f, 0.48f, 0.68f), glm::vec3(0.58f, 0.90f, 0.42f),
-                             glm::vec3(1.00f, 0.62f, 0.32f), glm::vec3(0.74f, 0.64f, 1.00f)};
+constexpr std::array kMarkColors{0xffd133u, 0x5cccffu, 0xff7aaeu, 0x94e66bu, 0xff9e52u, 0xbda3ffu};
 
 bool is_named(const scene::Scene& in, const std::string& name) {
   return std::any_of(in.effects.begin(), in.effects.end(),
@@ -58,7 +56,7 @@ void add_shapes(const std::vector<std::string>& files, scene::Scene& in) {
   for (const std::string& file : files) {
     effects::ShapeLayer layer;
     layer.file = file;
-    layer.color = kColors[shapes.layers.size() % kColors.size()];
+    layer.color = effects::mark_color(kMarkColors[shapes.layers.size() % kMarkColors.size()]);
     shapes.layers.push_back(std::move(layer));
   }
 }

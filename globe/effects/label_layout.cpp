@@ -33,7 +33,7 @@ std::vector<double> label_shares(std::span<const LabelBox> boxes,
     shares[k] = share;
     standing.push_back(k);
   }
-  for (double& share : shares) share = std::max(share - kLeast, 0.0) / (1.0 - kLeast);
+  for (double& share : shares) share = glm::smoothstep(kLeast, 0.75, share);
   return shares;
 }
 

@@ -11,6 +11,13 @@
 
 namespace globe::effects {
 
+/// 0xRRGGBB.
+constexpr glm::vec3 mark_color(unsigned rgb) {
+  return glm::vec3(static_cast<float>(rgb >> 16 & 255u), static_cast<float>(rgb >> 8 & 255u),
+                   static_cast<float>(rgb & 255u)) /
+         255.0f;
+}
+
 /// "graticule": meridians and parallels.
 struct GraticuleParameters {
   std::optional<double> step_deg;  ///< divides 90; nothing: by what is in view
@@ -22,7 +29,7 @@ struct GraticuleParameters {
 /// One GeoJSON file, drawn on the ground.
 struct ShapeLayer {
   std::filesystem::path file;
-  glm::vec3 color{1.0f, 0.82f, 0.2f};
+  glm::vec3 color = mark_color(0xffd133);
   double width_px = 2.0;  ///< of lines and borders; 0: none
   double fill = 0.25;     ///< opacity inside polygons; 0: none
   double point_px = 4.0;  ///< radius of points; 0: none

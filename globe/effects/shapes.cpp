@@ -70,7 +70,10 @@ struct ShapesBlock {
 struct Layer {
   ShapeLayer look;
   std::vector<ShapeLine> lines;
+  std::vector<glm::dvec3> points;           ///< normals
   std::vector<ShapeCells::Rings> polygons;  ///< until their table is made
+
+  bool has_pass() const { return !lines.empty() || !points.empty(); }
 };
 
 bool on_antimeridian(double lon_deg) { return std::remainder(lon_deg - 180.0, 360.0) == 0.0; }
@@ -135,15 +138,15 @@ std::vector<MapCorner> corners_of(const geo::Geometry::Line& places, const std::
 }
 
 Layer read_file(const ShapeLayer& look, const geo::Ellipsoid& ellipsoid) {
-  Layer layer{look, {}, {}};
+  Layer layer{look, {}, {}, {}};
   const auto half_width = static_cast<float>(0.5 * look.width_px);
   bool found = false;
   geo::visit_geojson(look.file, [&](geo::Feature&& feature) {
     const std::string where = look.file.string() + ", feature " + std::to_string(feature.number);
     found = found || !feature.geometry.empty();
     for (const geo::Geodetic& point : feature.geometry.points) {
-      if (look.point_px > 0.0)
-        layer.lines.emplace_back(ellipsoid, corners_of({point}, where), static_cast<float>(look.point_px));
+      const MapCorner at = corners_of({point}, where).front();
+      if (look.point_px > 0.0) layer.points.push_back(geo::normal_from_degrees(at.lat_deg, at.lon_deg));
     }
     std::vector<std::vector<MapCorner>> lines;
     for (const geo::Geometry::Line& line : feature.geometry.lines) {
@@ -197,7 +200,7 @@ class Shapes final : public render::Effect {
 
   render::Stage stage() const override {
     const bool any =
-        std::any_of(layers_.begin(), layers_.end(), [](const Layer& layer) { return !layer.lines.empty(); });
+        std::any_of(layers_.begin(), layers_.end(), [](const Layer& layer) { return layer.has_pass(); });
     return any ? render::Stage::kLayer : render::Stage::kNone;
   }
 
@@ -208,6 +211,8 @@ class Shapes final : public render::Effect {
     for (const Layer& layer : layers_) {
       for (const ShapeLine& line : layer.lines)
         if (line.may_be_seen(lines.view)) return {true, "lines or points are in view"};
+      for (const glm::dvec3& u : layer.points)
+        if (lines.may_see(u)) return {true, "lines or points are in view"};
     }
     return {false, "none of them is in view"};
   }
@@ -216,6 +221,12 @@ class Shapes final : public render::Effect {
     gl::ProgramSources sources;
     sources.files = {"effects/shapes_line.vert", "effects/shapes_line.frag"};
     program_ = gl::Program(sources);
+    sources.files = {"effects/shapes_point.vert", "effects/shapes_point.frag"};
+    point_program_ = gl::Program(sources);
+    sources.files = {"wide_view.vert", "effects/shapes_halo.frag"};
+    halo_program_ = gl::Program(sources);
+    point_array_ = gl::VertexArray::create();
+    point_array_.set_attribute(0, {0, 4, GL_FLOAT, 0, gl::Attribute::Kind::kFloat});
     array_ = gl::VertexArray::create();
     for (GLuint k = 0; k < sizeof(Arc) / sizeof(glm::vec4); ++k)
       array_.set_attribute(
@@ -240,7 +251,7 @@ class Shapes final : public render::Effect {
 
   void draw(const render::EffectView& view) override {
     find_arcs(view);
-    if (arcs_.empty()) return;
+    if (arcs_.empty() && points_.empty()) return;
     const gl::Framebuffer& picture = view.target;
     picture.resolve();
     picture.bind();
@@ -254,21 +265,9 @@ class Shapes final : public render::Effect {
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glTextureBarrier();
     picture.depth().bind(0);
-    array_.set_vertices(0, instances_, 0, sizeof(Arc), 1);
-    array_.bind();
-    program_.use();
-    const auto draw_layer = [&](const Range& range, const glm::vec3& color, float opacity, double wider_px) {
-      program_.set(0, glm::vec4(color, opacity));
-      program_.set(1, glm::vec4(glm::dvec4(2.0 * view.camera.tan_y() / picture.height(), wider_px,
-                                           picture.width(), picture.height())));
-      glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 14, range.count, range.first);
-    };
     for (std::size_t k = 0; k < layers_.size(); ++k) {
-      const Range& range = ranges_[k];
-      if (range.count == 0) continue;
-      const ShapeLayer& look = layers_[k].look;
-      if (look.halo_px > 0.0) draw_layer(range, glm::vec3(0.02f), kHaloOpacity, look.halo_px);
-      draw_layer(range, look.color, 1.0f, 0.0);
+      draw_lines(view, layers_[k].look, ranges_[k]);
+      draw_points(view, layers_[k].look, point_ranges_[k]);
     }
     glCullFace(GL_BACK);
     glDisable(GL_CULL_FACE);
@@ -278,10 +277,12 @@ class Shapes final : public render::Effect {
 
   int passes() const override {
     return static_cast<int>(std::count_if(layers_.begin(), layers_.end(),
-                                          [](const Layer& layer) { return !layer.lines.empty(); })) *
-           2;
+                                          [](const Layer& layer) { return layer.has_pass(); })) *
+           3;
   }
-  std::size_t gpu_bytes() const override { return block_.bytes() + tables_.size() + instances_.size(); }
+  std::size_t gpu_bytes() const override {
+    return block_.bytes() + tables_.size() + instances_.size() + point_instances_.size();
+  }
 
  private:
   struct Filled {
@@ -324,6 +325,14 @@ class Shapes final : public render::Effect {
                 std::min(surface.drawn_height(h) + wave + slack, heights.y)};
       };
     }
+    /// Whether any height of a place may be seen.
+    bool may_see(const glm::dvec3& u) const {
+      const glm::dvec3 centre =
+          geo::ecef_from_normal(view.ellipsoid, u, 0.5 * (view.lowest_m + view.highest_m));
+      return frustum.sees(centre - view.eye, 0.5 * (view.highest_m - view.lowest_m)) &&
+             horizon.sees(centre, 0.5 * (view.highest_m - view.lowest_m), view.highest_m);
+    }
+
     ViewOfLines(const ViewOfLines&) = delete;
     ViewOfLines& operator=(const ViewOfLines&) = delete;
     ~ViewOfLines() = default;
@@ -333,18 +342,83 @@ class Shapes final : public render::Effect {
     LineView view;
   };
 
+  void draw_lines(const render::EffectView& view, const ShapeLayer& look, const Range& range) {
+    if (range.count == 0) return;
+    array_.set_vertices(0, instances_, 0, sizeof(Arc), 1);
+    array_.bind();
+    program_.use();
+    const auto draw = [&](const glm::vec3& color, float opacity, double wider_px) {
+      program_.set(0, glm::vec4(color, opacity));
+      program_.set(1, glm::vec4(glm::dvec4(2.0 * view.camera.tan_y() / view.target.height(), wider_px,
+                                           view.target.width(), view.target.height())));
+      glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 14, range.count, range.first);
+    };
+    if (look.halo_px > 0.0) {
+      // What pieces share of it is dark once: the darkest of each pixel first, in its alpha, then all at
+      // once.
+      glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+      glBlendEquation(GL_MIN);
+      draw(glm::vec3(0.0f), -kHaloOpacity, look.halo_px);
+      glBlendEquation(GL_FUNC_ADD);
+      glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+      glBlendFunc(GL_ZERO, GL_DST_ALPHA);
+      glDisable(GL_CULL_FACE);
+      halo_program_.use();
+      glDrawArrays(GL_TRIANGLES, 0, 3);
+      glEnable(GL_CULL_FACE);
+      glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+      view.target.clear_color(0.0f, 0.0f, 0.0f, 1.0f);
+      glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+      glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+      program_.use();
+    }
+    draw(look.color, 1.0f, 0.0);
+  }
+
+  void draw_points(const render::EffectView& view, const ShapeLayer& look, const Range& range) {
+    if (range.count == 0) return;
+    point_array_.set_vertices(0, point_instances_, 0, sizeof(glm::vec4), 1);
+    point_array_.bind();
+    point_program_.use();
+    point_program_.set(0, glm::vec4(look.color, kHaloOpacity));
+    point_program_.set(1,
+                       glm::vec4(glm::dvec4(look.halo_px, view.target.width(), view.target.height(), 0.0)));
+    glDisable(GL_CULL_FACE);
+    glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, range.count, range.first);
+    glEnable(GL_CULL_FACE);
+  }
+
+  template <class T>
+  static void upload(const std::vector<T>& values, gl::Buffer& buffer) {
+    const std::size_t bytes = values.size() * sizeof(T);
+    if (bytes > buffer.size()) buffer = gl::Buffer(bytes + bytes / 2);
+    if (bytes > 0) buffer.upload(0, values.data(), bytes);
+  }
+
   void find_arcs(const render::EffectView& view) {
     arcs_.clear();
     ranges_.clear();
+    points_.clear();
+    point_ranges_.clear();
     const ViewOfLines lines(view, heights_, error_px_);
     for (const Layer& layer : layers_) {
-      const std::size_t first = arcs_.size();
+      const std::size_t first = arcs_.size(), first_point = points_.size();
       for (const ShapeLine& line : layer.lines) line.add_arcs(lines.view, arcs_);
+      for (const glm::dvec3& u : layer.points) {
+        if (!lines.may_see(u)) continue;
+        const glm::dvec3 low = geo::surface_point(lines.view.ellipsoid, u) - lines.view.eye;
+        const double distance = std::max(glm::length(low + u * lines.view.ground_m), lines.view.above_m);
+        const double h = view.surface.drawn_height(ground_height(view, u, distance));
+        const glm::dvec3 at = low + u * h;
+        if (glm::dot(at, view.camera.forward) > 0.0)
+          points_.emplace_back(glm::vec4(glm::dvec4(at, layer.look.point_px)));
+      }
       ranges_.push_back({static_cast<GLuint>(first), static_cast<GLsizei>(arcs_.size() - first)});
+      point_ranges_.push_back(
+          {static_cast<GLuint>(first_point), static_cast<GLsizei>(points_.size() - first_point)});
     }
-    const std::size_t bytes = arcs_.size() * sizeof(Arc);
-    if (bytes > instances_.size()) instances_ = gl::Buffer(bytes + bytes / 2);
-    if (bytes > 0) instances_.upload(0, arcs_.data(), bytes);
+    upload(arcs_, instances_);
+    upload(points_, point_instances_);
   }
 
   void make_tables() {
@@ -365,11 +439,12 @@ class Shapes final : public render::Effect {
   glm::dvec2 heights_;  ///< lowest and highest ground, as drawn
   std::vector<Layer> layers_;
   std::vector<Filled> filled_;
-  std::vector<Arc> arcs_;      ///< of the view being drawn
-  std::vector<Range> ranges_;  ///< of the layers
-  gl::Program program_;
-  gl::VertexArray array_;
-  gl::Buffer instances_, tables_;
+  std::vector<Arc> arcs_;                     ///< of the view being drawn
+  std::vector<glm::vec4> points_;             ///< as shaders/effects/shapes_point.vert takes them
+  std::vector<Range> ranges_, point_ranges_;  ///< of the layers
+  gl::Program program_, point_program_, halo_program_;
+  gl::VertexArray array_, point_array_;
+  gl::Buffer instances_, point_instances_, tables_;
   UniformBlock<ShapesBlock> block_;
 };
 

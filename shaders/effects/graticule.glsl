@@ -10,10 +10,11 @@ layout(std140, binding = GRATICULE_BLOCK) uniform Graticule {
                   // of finer lines
 } graticule;
 
-// How much of a pixel lines cover that lie `gap` pixels apart, `away` pixels from the nearest.
-float graticule_cover(float away, float gap) {
+// How much of a pixel lines cover, and their dark borders, that lie `gap` pixels apart, `away` pixels from the nearest.
+vec2 graticule_cover(float away, float gap) {
   float half_width = 0.5 * graticule.lines.w;
-  return clamp(half_width + 0.5 - away, 0.0, min(graticule.lines.w, 1.0)) * smoothstep(4.0, 12.0, gap);
+  float line = clamp(half_width + 0.5 - away, 0.0, min(graticule.lines.w, 1.0));
+  return vec2(line, clamp(half_width + 1.5 - away, 0.0, 1.0)) * smoothstep(4.0, 12.0, gap);
 }
 
 float graticule_share(int number, int nearest) {
@@ -31,7 +32,8 @@ vec3 graticule_add(vec3 light, Place place) {
   vec2 steps = at.offset / graticule.lines.z + graticule.lines.xy;
   vec2 nearest = round(steps);
   vec2 away = abs(steps - nearest) * gap;
-  float meridian = graticule_cover(away.x, gap.x) * graticule_share(graticule.numbers.x, int(nearest.x));
-  float parallel = graticule_cover(away.y, gap.y) * graticule_share(graticule.numbers.y, int(nearest.y));
-  return marked_light(light, graticule.color.rgb, max(meridian, parallel) * graticule.color.w);
+  vec2 meridian = graticule_cover(away.x, gap.x) * graticule_share(graticule.numbers.x, int(nearest.x));
+  vec2 parallel = graticule_cover(away.y, gap.y) * graticule_share(graticule.numbers.y, int(nearest.y));
+  vec2 cover = max(meridian, parallel) * graticule.color.w;
+  return marked_light(marked_light(light, vec3(0.02), 0.3 * cover.y), graticule.color.rgb, cover.x);
 }

@@ -3,7 +3,7 @@
 #include "lib/view.glsl"
 
 layout(binding = 0) uniform sampler2D depth;
-layout(location = 0) uniform vec4 ink;    // colour as the screen shows it; w: opacity
+layout(location = 0) uniform vec4 ink;    // colour as the screen shows it; w: opacity, below 0: what is left of the light is asked for
 layout(location = 1) uniform vec4 sizes;  // as in the vertex shader
 
 flat in vec4 across;
@@ -49,5 +49,5 @@ void main() {
   else if (dot(from_b, direction) > 0.0) away_px = length(from_b);
   float cover = clamp(size.y + 0.5 - away_px, 0.0, min(2.0 * size.y, 1.0));
   if (!(cover > 0.0)) discard;
-  color = vec4(light_shown_as(ink.rgb), ink.a * cover);
+  color = vec4(light_shown_as(ink.rgb), ink.a < 0.0 ? 1.0 + ink.a * cover : ink.a * cover);
 }

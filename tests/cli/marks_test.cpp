@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,7 @@ using cli::with;
 
 using Words = std::vector<std::string>;
 
-const Words kSmall{"--size", "128x72", "--detail", "16", "--quiet", "--overwrite"};
+const Words kSmallMarks{"--size", "128x72", "--detail", "16", "--quiet", "--overwrite"};
 const Words kAbove{"--at", "-43.42,-106.43,400", "--agl", "--look", "110,-30"};
 const std::string kField =
     R"({"type":"Feature","properties":{"name":"Field"},"geometry":{"type":"Polygon","coordinates":)"
@@ -29,7 +28,7 @@ class Marks : public testing::Test {
  protected:
   void SetUp() override {
     const Outcome run =
-        run_program(with({"shot", "procedural", "-o", file("probe.png"), "--at", "1 2 1e6"}, kSmall));
+        run_program(with({"shot", "procedural", "-o", file("probe.png"), "--at", "1 2 1e6"}, kSmallMarks));
     if (run.status != 0) GTEST_SKIP() << "NO GRAPHICS HERE: " << run.err;
   }
 
@@ -39,8 +38,8 @@ class Marks : public testing::Test {
   }
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
   std::string shot(const Words& words) const {
-    const Outcome run =
-        run_program(with(with({"shot", "procedural", "-o", file("shot.png")}, words), with(kSmall, kAbove)));
+    const Outcome run = run_program(
+        with(with({"shot", "procedural", "-o", file("shot.png")}, words), with(kSmallMarks, kAbove)));
     EXPECT_EQ(run.status, 0) << run.err;
     return cli::text_of(file("shot.png"));
   }
@@ -54,50 +53,45 @@ TEST_F(Marks, EachOptionShowsInThePicture) {
   const std::string none = shot({}), shapes = shot({"--shapes", field, "--labels", "off"}),
                     named = shot({"--shapes", field}), lines = shot({"--graticule", "--labels", "off"}),
                     narrow = shot({"--graticule", "0.001", "--labels", "off"});
-  EXPECT_NE(shapes, none);
-  EXPECT_NE(named, shapes);
-  EXPECT_NE(lines, none);
-  EXPECT_NE(narrow, lines);
-  EXPECT_EQ(shot({"--labels", "off"}), none);
+  EXPECT_TRUE(shapes != none);
+  EXPECT_TRUE(named != shapes);
+  EXPECT_TRUE(lines != none);
+  EXPECT_TRUE(narrow != lines);
+  EXPECT_TRUE(shot({"--labels", "off"}) == none);
 }
 
 TEST_F(Marks, WhatIsOutOfViewLeavesThePictureAsItIs) {
   const std::string far = write("far.geojson", R"({"type":"LineString","coordinates":[[10,20],[11,21]]})");
-  EXPECT_EQ(shot({"--shapes", far}), shot({}));
+  EXPECT_TRUE(shot({"--shapes", far}) == shot({}));
 }
 
 TEST_F(Marks, AScenesTablesAndTheOptionsDrawTheSame) {
   write("field.geojson", kField);
   const std::string scene =
       write("scene.toml", "[effects.shapes]\nfile = \"field.geojson\"\ncolor = \"ffd133\"\n");
-  const Outcome run = run_program(with(with({"shot", scene, "-o", file("scene.png")}, kSmall), kAbove));
+  const Outcome run = run_program(with(with({"shot", scene, "-o", file("scene.png")}, kSmallMarks), kAbove));
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(cli::text_of(file("scene.png")), shot({"--shapes", file("field.geojson"), "--labels", "off"}));
+  EXPECT_TRUE(cli::text_of(file("scene.png")) ==
+              shot({"--shapes", file("field.geojson"), "--labels", "off"}));
 }
 
 TEST_F(Marks, ACoverDrapesAsItIs) {
   const Outcome cover = run_program({"cover", "--cone", "-43.4,-106.4,3km", "--level", "14", "--geojson"});
   ASSERT_EQ(cover.status, 0) << cover.err;
-  EXPECT_NE(shot({"--shapes", write("cover.geojson", cover.out)}), shot({}));
+  EXPECT_TRUE(shot({"--shapes", write("cover.geojson", cover.out)}) != shot({}));
 }
 
-TEST_F(Marks, FlightsAndExplainTakeThemToo) {
+TEST_F(Marks, FlightsTakeThemToo) {
   const std::string field = write("field.geojson", kField);
   const Outcome fly = run_program(with({"fly", "procedural", "-o", file("##.png"), "--frames", "2", "--wait",
                                         "--shapes", field, "--graticule"},
                                        {"--size", "64x36", "--detail", "16", "--quiet", "--overwrite"}));
   EXPECT_EQ(fly.status, 0) << fly.err;
-  const Outcome plan = run_program(
-      {"explain",
-       write("scene.toml", "[camera]\nat = \"-43.42,-106.43,400\"\nagl = true\nlook = \"110,-30\"\n"),
-       "--shapes", field, "--size", "64x36", "--detail", "16", "--rounds", "5", "--json", "--quiet"});
-  ASSERT_EQ(plan.status, 0) << plan.err;
-  EXPECT_EQ(nlohmann::json::parse(plan.out)["effects"][0]["name"], "shapes");
 }
 
 TEST_F(Marks, RefusesInOneLineWhatMakesNoSense) {
   const auto asked = [&](const Words& words) {
-    return with(with({"procedural", "-o", file("x.png")}, words), with(kSmall, kAbove));
+    return with(with({"procedural", "-o", file("x.png")}, words), with(kSmallMarks, kAbove));
   };
   const std::string cut = write("cut.geojson", kField.substr(0, 100)),
                     empty = write("empty.geojson", R"({"type":"FeatureCollection","features":[]})"),
@@ -113,7 +107,7 @@ TEST_F(Marks, RefusesInOneLineWhatMakesNoSense) {
     refusals.push_back({asked({"--shapes", name}), 1});
   cli::expect_refusals("shot", refusals);
   const std::string scene = write("scene.toml", "[effects.labels]\n");
-  const Outcome run = run_program(with(with({"shot", scene, "-o", file("x.png")}, kSmall), kAbove));
+  const Outcome run = run_program(with(with({"shot", scene, "-o", file("x.png")}, kSmallMarks), kAbove));
   EXPECT_EQ(run.status, 1);
   EXPECT_NE(run.err.find("scene.toml:1: effects.labels"), std::string::npos) << run.err;
 }

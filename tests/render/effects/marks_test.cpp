@@ -122,7 +122,7 @@ TEST_F(Marked, AParallelLiesOnItsPixelsFromOrbitAndOverRoughGround) {
 
 TEST_F(Marked, AGraticulesParallelsLieOnTheirPixels) {
   const Pair orbit = pair("[effects.graticule]\nstep = 90\ncolor = \"ff00ff\"\nopacity = 1\n",
-                          {"near the equator", 4.0, -106.4}, 8e6, 0.0, -90.0);
+                          {"near the equator", 4.0, -45.0}, 2e6, 0.0, -90.0);
   expect_parallel(orbit, 0.0, 40);
 }
 
