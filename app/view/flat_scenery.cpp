@@ -65,6 +65,12 @@ std::vector<std::string> FlatScenery::shot_words() const {
     if (!value.empty()) words.insert(words.end(), {option, value});
   };
   const auto number = [](double value) { return number_text(value, std::nullopt); };
+  // Where nothing says where a region lies, it lies around the camera.
+  const bool is_map = std::filesystem::is_regular_file(words_.front());
+  if (!is_map && std::find(words_.begin(), words_.end(), "--center") == words_.end()) {
+    const globe::geo::Geodetic& middle = region_.terrain->frame().origin();
+    say("--center", number(middle.lat_deg) + "," + number(middle.lon_deg));
+  }
   say("--error", number(options_.error_px));
   say("--lod", options_.lod);
   say("--culling", options_.culling);

@@ -178,8 +178,11 @@ std::vector<std::string> GlobeScenery::shot_words() const {
   }
   if (!options_.marks.labels.empty()) say("--labels", options_.marks.labels);
   for (const EffectChoice& effect : effects_) {
-    if (effect.on && !effect.in_scene) say("--with", effect.name);
-    if (!effect.on && effect.in_scene) say("--without", effect.name);
+    // Those that options added are in the scene as it came here.
+    const bool added = std::count(options_.with.begin(), options_.with.end(), effect.name) > 0;
+    const bool left_out = std::count(options_.without.begin(), options_.without.end(), effect.name) > 0;
+    if (effect.on && (added || !effect.in_scene)) say("--with", effect.name);
+    if (!effect.on && (left_out || (effect.in_scene && !added))) say("--without", effect.name);
   }
   return words;
 }
