@@ -87,13 +87,6 @@ std::vector<std::string> FlatScenery::shot_words() const {
   return words;
 }
 
-double FlatScenery::ground_m(double lat_deg, double lon_deg) const {
-  const globe::flat::TangentFrame& frame = region_.terrain->frame();
-  const glm::dvec3 foot = frame.local_from_geodetic({lat_deg, lon_deg, 0.0});
-  const double z = region_.terrain->z_at(foot.x, foot.y);
-  return frame.geodetic_from_local({foot.x, foot.y, z}).h_m;
-}
-
 std::string FlatScenery::name() const {
   std::string name = "flat";
   for (const std::string& word : words_)

@@ -25,7 +25,6 @@ class FlatScenery : public Scenery {
   void complete() override {}
   const std::vector<Choice>& choices() const override { return choices_; }
   std::vector<std::string> shot_words() const override;
-  double ground_m(double lat_deg, double lon_deg) const override;
   std::string name() const override;
 
  private:

@@ -10,7 +10,6 @@
 #include "app/scene_argument.h"
 #include "globe/base/error.h"
 #include "globe/effects/list.h"
-#include "globe/planet/interpolation.h"
 
 namespace app::view {
 namespace {
@@ -185,15 +184,6 @@ std::vector<std::string> GlobeScenery::shot_words() const {
     if (!effect.on && (left_out || (effect.in_scene && !added))) say("--without", effect.name);
   }
   return words;
-}
-
-double GlobeScenery::ground_m(double lat_deg, double lon_deg) const {
-  if (!surface_->has_heights()) return 0.0;
-  const double ground =
-      globe::planet::data_height_at(*surface_, globe::geo::normal_from_degrees(lat_deg, lon_deg),
-                                    globe::planet::Interpolation::kLinear)
-          .height_m;
-  return surface_->drawn_height(ground);
 }
 
 std::string GlobeScenery::name() const {

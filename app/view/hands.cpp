@@ -63,7 +63,7 @@ void Hands::click(const gl::ButtonChanged& event) {
   if (session_.measure.is_on()) {
     if (const auto place = session_.canvas.seen_at(event.at)) {
       session_.measure.add(session_.geodetic_of(*place), [&](double lat_deg, double lon_deg) {
-        return session_.scenery.ground_m(lat_deg, lon_deg);
+        return session_.ground_m(lat_deg, lon_deg, session_.navigator.stand().place.h_m);
       });
     }
   } else if (again) {

@@ -50,9 +50,6 @@ class Scenery {
   /// Words after "globe" that make the same picture, with the choices as they are, camera and sun left out.
   virtual std::vector<std::string> shot_words() const = 0;
 
-  /// Height of the ground, or of the sea over it, above the ellipsoid, by the data, metres.
-  virtual double ground_m(double lat_deg, double lon_deg) const = 0;
-
   /// Name under which the last view is remembered.
   virtual std::string name() const = 0;
 };

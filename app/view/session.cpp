@@ -86,6 +86,11 @@ double Session::above_ground_m() const {
       geo::ecef_from_geodetic(scenery.ellipsoid(), navigator.stand().place), false);
 }
 
+double Session::ground_m(double lat_deg, double lon_deg, double camera_m) const {
+  const glm::dvec3 above = geo::ecef_from_geodetic(scenery.ellipsoid(), {lat_deg, lon_deg, camera_m});
+  return camera_m - scenery.renderer().height_above_ground(above, true);
+}
+
 std::string Session::shot_line(const std::string& output) const {
   std::vector<std::string> words = scenery.shot_words();
   words.insert(words.begin(), "globe");

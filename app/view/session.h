@@ -89,6 +89,9 @@ struct Session {
   void set_overhead(const std::string& place);
 
   double above_ground_m() const;
+  /// Height above the ellipsoid of the ground as it is drawn under a camera at a height, metres. It waits for
+  /// ground that has to be made.
+  double ground_m(double lat_deg, double lon_deg, double camera_m) const;
   globe::geo::Geodetic geodetic_of(const glm::dvec3& place) const {
     return globe::geo::geodetic_from_ecef(scenery.ellipsoid(), place);
   }

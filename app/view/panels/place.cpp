@@ -27,8 +27,7 @@ void draw_place(Session& session) {
   ImGui::TextUnformatted(latitude_longitude(at.lat_deg, at.lon_deg).c_str());
   ImGui::Text("%s  %s", sexagesimal(at.lat_deg, 'N', 'S').c_str(), sexagesimal(at.lon_deg, 'E', 'W').c_str());
   const double way = glm::distance(*session.pointed, session.navigator.camera().position);
-  ImGui::Text("ground %s, %s away", length(session.scenery.ground_m(at.lat_deg, at.lon_deg)).c_str(),
-              length(way).c_str());
+  ImGui::Text("ground %s, %s away", length(at.h_m).c_str(), length(way).c_str());
 }
 
 }  // namespace app::view

@@ -16,9 +16,9 @@ constexpr double kViewPitch = -35.0;
 constexpr std::size_t kMostHits = 8;
 
 void go_to(Session& session, double lat_deg, double lon_deg, double alt_m, bool has_alt) {
-  const globe::geo::Geodetic place{lat_deg, lon_deg,
-                                   has_alt ? alt_m : session.scenery.ground_m(lat_deg, lon_deg)};
   const double scale = globe::geo::small_body_scale(session.scenery.ellipsoid());
+  const globe::geo::Geodetic place{lat_deg, lon_deg,
+                                   has_alt ? alt_m : session.ground_m(lat_deg, lon_deg, kViewedFrom * scale)};
   session.on_path = false;
   if (has_alt) {
     session.navigator.fly_to({place, {0.0, -90.0, 0.0}});
