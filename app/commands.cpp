@@ -31,6 +31,7 @@ void add_commands(CLI::App& program, int& exit_status) {
   add_sight(program, exit_status);
   add_summary(program);
   add_tune(program);
+  add_view(program);
 }
 
 std::vector<std::string> arguments(int argc, const char* const* argv) {

@@ -31,11 +31,14 @@ void add_explain(CLI::App& program);
 void add_export(CLI::App& program);
 void add_find(CLI::App& program);
 void add_flat(CLI::App& program);
+/// `globe flat view`.
+void add_flat_view(CLI::App& flat);
 void add_fly(CLI::App& program);
 void add_pick(CLI::App& program, int& exit_status);
 void add_profile(CLI::App& program);
 void add_shot(CLI::App& program);
 void add_summary(CLI::App& program);
 void add_tune(CLI::App& program);
+void add_view(CLI::App& program);
 
 }  // namespace app

@@ -10,15 +10,12 @@
 #include "app/commands.h"
 #include "app/flat_camera.h"
 #include "app/flat_endless.h"
-#include "app/flat_region.h"
+#include "app/flat_options.h"
 #include "app/flight_stats.h"
 #include "app/frame_sink.h"
 #include "app/parse_options.h"
-#include "app/point.h"
 #include "app/progress.h"
 #include "app/save_picture.h"
-#include "app/scene_argument.h"
-#include "app/standing_camera.h"
 #include "app/view_options.h"
 #include "flat/geomipmap_renderer.h"
 #include "globe/base/error.h"
@@ -33,83 +30,12 @@ namespace flat = globe::flat;
 namespace geo = globe::geo;
 namespace render = globe::render;
 
-struct FlatOptions : ViewOptions {
-  LocalRegionOptions region;
-  std::string at;
-  double error_px = 1.0;
-  std::string morph_by = "gpu";
-  std::string lod = "on";
-  std::string culling = "on";
-  std::string shadows = "on";
-  std::string materials = "off";
-  double cloud_shadows = 0;
-  std::string pvs;
-};
-
 struct FilmOptions : FlatOptions {
   std::string to;
   int frames = 300;
   double fps = 30.0;
   std::string stats;
 };
-
-void add_flat_options(CLI::App& command, FlatOptions& options) {
-  command
-      .add_option(
-          "REGION", options.planet,
-          "a height map of a place, a folder made by globe convert or procedural[:SEED] (with --center), "
-          "fractal[:SEED], or a scene, SCENE.toml")
-      ->required();
-  add_local_region_options(command, options.region);
-  add_eye_options(command, options);
-  add_picture_options(command, options);
-  add_output_options(command, options);
-  command
-      .add_option("--error", options.error_px,
-                  "pixels that the mesh may be off at most: patches take the coarsest level under it")
-      ->capture_default_str()
-      ->check(in_range(0.0, 1000.0));
-  const auto on_off = [&](const char* name, std::string& value, const char* help) {
-    command.add_option(name, value, help)->capture_default_str()->check(CLI::IsMember({"on", "off"}));
-  };
-  command
-      .add_option(
-          "--morph", options.morph_by,
-          "how levels change: gradually by the vertex shader (gpu) or by this program (cpu), or at once")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"off", "cpu", "gpu"}));
-  on_off("--lod", options.lod, "off: every post is drawn");
-  on_off("--culling", options.culling, "off: patches out of view are drawn too");
-  on_off("--shadows", options.shadows, "off: the ground throws no shadows");
-  on_off("--materials", options.materials, "on: grass, stone and mud, a pass each where they are");
-  command
-      .add_option("--cloud-shadows", options.cloud_shadows,
-                  "share of the sky whose clouds throw shadows, which move")
-      ->capture_default_str()
-      ->check(in_range(0.0, 1.0));
-  command.add_option("--pvs", options.pvs, "file made by globe flat pvs: patches it hides are not drawn");
-}
-
-flat::GeomipmapSettings settings_of(const FlatOptions& options, const FlatRegion& region) {
-  flat::GeomipmapSettings settings;
-  settings.error_px = options.error_px;
-  settings.morph = options.morph_by == "off"   ? flat::Morph::kOff
-                   : options.morph_by == "cpu" ? flat::Morph::kCpu
-                                               : flat::Morph::kGpu;
-  settings.lod = options.lod == "on";
-  settings.culling = options.culling == "on";
-  settings.shadows = options.shadows == "on";
-  settings.show = show_of(options);
-  settings.wireframe = options.wireframe;
-  settings.background = background_of(options);
-  settings.air = region.air;
-  if (options.materials == "on") settings.materials = flat::grass_stone_and_mud(*region.terrain);
-  settings.cloud_cover = options.cloud_shadows;
-  if (!options.pvs.empty())
-    settings.visibility =
-        std::make_shared<const flat::Visibility>(flat::Visibility::read(options.pvs, *region.terrain));
-  return settings;
-}
 
 /// A region, what draws it, and through what.
 struct Stage {
@@ -128,7 +54,7 @@ struct Stage {
         sun(sun_for(options, region.body, around.value_or(region.terrain->frame().origin()))),
         context(options.device),
         renderer(region.terrain, flat::post_colors(*region.terrain, region.knowledge),
-                 settings_of(options, region)),
+                 geomipmap_settings(options, region)),
         lens(optics, size.width, size.height, options.samples, background_of(options)) {}
 
   const geo::Ellipsoid& ellipsoid() const { return region.terrain->frame().ellipsoid(); }
@@ -148,65 +74,6 @@ struct Stage {
   }
 };
 
-void check_options(const FlatOptions& options) {
-  size_of(options, optics_of(options.optics));
-  if (!options.look.empty()) parse_look(options.look);
-  background_of(options);
-}
-
-/// Where the camera stands at first: --at, or the scene's camera.
-struct Start {
-  std::optional<Point> at;
-  bool agl = false;
-  std::optional<Look> look;
-};
-Start start_of(const FlatOptions& options, const std::optional<globe::scene::Scene>& scene) {
-  Start start{std::nullopt, options.agl, std::nullopt};
-  if (scene && scene->camera) {
-    start = {scene->camera->at, options.agl || scene->camera->agl, std::nullopt};
-    start.look = look_of(*scene->camera);
-  }
-  if (!options.at.empty()) start.at = parse_point(options.at);
-  return start;
-}
-
-/// Takes a scene's region into the options that were not given.
-void take_region(const CLI::App& command, const globe::scene::Region& region, FlatOptions& options) {
-  const auto is_given = [&](const char* option) { return command.get_option(option)->count() > 0; };
-  char text[96];
-  if (!is_given("--center")) {
-    std::snprintf(text, sizeof text, "%.12f,%.12f", region.center.lat_deg, region.center.lon_deg);
-    options.region.center = text;
-  }
-  if (!is_given("--side")) {
-    std::snprintf(text, sizeof text, "%.17gm", region.side_m);
-    options.region.side = text;
-  }
-  if (!is_given("--spacing") && region.spacing_m) {
-    std::snprintf(text, sizeof text, "%.17gm", *region.spacing_m);
-    options.region.spacing = text;
-  }
-  if (!is_given("--error")) options.error_px = region.error_px;
-  if (!is_given("--shadows")) options.shadows = region.shadows ? "on" : "off";
-  if (!is_given("--materials")) options.materials = region.materials ? "on" : "off";
-}
-
-std::optional<globe::scene::Scene> scene_of(const CLI::App& command, FlatOptions& options) {
-  std::optional<globe::scene::Scene> scene = take_scene(command, options);
-  if (scene && !scene->effects.empty())
-    std::fprintf(stderr,
-                 "globe: warning: %s:%d: effects.%s: not drawn over a region alone; globe shot and globe fly "
-                 "draw them over one in the globe\n",
-                 scene->file.c_str(), scene->effects.front().line, scene->effects.front().name.c_str());
-  if (scene && scene->region) take_region(command, *scene->region, options);
-  return scene;
-}
-
-std::optional<geo::Geodetic> place_of(const Start& start) {
-  if (!start.at) return std::nullopt;
-  return start.at->position;
-}
-
 FlatView view_of(const Stage& stage, const Start& start, const FlatOptions& options) {
   FlatView view = overview(*stage.region.terrain);
   if (start.at) view = {stage.stand_at(*start.at, start.agl), start.look.value_or(Look{0.0, -90.0})};
@@ -215,12 +82,13 @@ FlatView view_of(const Stage& stage, const Start& start, const FlatOptions& opti
 }
 
 void take_shot(FlatOptions options, const CLI::App& command) {
-  const std::optional<globe::scene::Scene> scene = scene_of(command, options);
+  const std::optional<globe::scene::Scene> scene = take_flat_scene(command, options);
   check_options(options);
   globe::refuse_existing(options.output, options.overwrite);
   const Start start = start_of(options, scene);
   Stage stage(options, place_of(start));
   const render::Camera camera = stage.camera(view_of(stage, start, options));
+  stage.renderer.set_instant({options.moment_s});
   const render::FrameStats drawn = stage.lens.draw(stage.renderer, camera, stage.sun.at(0.0), true);
   save_picture(options, stage.lens.target(),
                render::near_distance(stage.ellipsoid(), stage.renderer.nearest_drawn(camera.position)));
@@ -251,7 +119,7 @@ FlatView end_of(const Stage& stage, const FilmOptions& options) {
 }
 
 void film(FilmOptions options, const CLI::App& command) {
-  const std::optional<globe::scene::Scene> scene = scene_of(command, options);
+  const std::optional<globe::scene::Scene> scene = take_flat_scene(command, options);
   check_options(options);
   if (!options.stats.empty()) globe::refuse_existing(options.stats, options.overwrite);
   if (options.frames < 1 || options.frames > 1'000'000)
@@ -322,14 +190,19 @@ void add_flat(CLI::App& program) {
   auto shot = std::make_shared<FlatOptions>();
   CLI::App* shot_command = command->add_subcommand("shot", "One picture of a region");
   add_flat_options(*shot_command, *shot);
+  add_output_options(*shot_command, *shot);
   shot_command->add_option("--at", shot->at,
                            "where the camera stands: LAT,LON[,ALT] (default: where all of it is seen)");
+  shot_command->add_option("--moment", shot->moment_s, "seconds that the clouds have moved for")
+      ->capture_default_str()
+      ->check(in_range(0.0, 1e9));
   shot_command->footer("Example: globe flat shot st_helens.dem -o helens.png --wireframe");
   shot_command->callback([shot, shot_command] { take_shot(*shot, *shot_command); });
 
   auto fly = std::make_shared<FilmOptions>();
   CLI::App* fly_command = command->add_subcommand("fly", "A flight over a region, frame by frame");
   add_flat_options(*fly_command, *fly);
+  add_output_options(*fly_command, *fly);
   fly_command->add_option("--from", fly->at, "LAT,LON[,ALT] (default: where all of it is seen)");
   fly_command->add_option("--to", fly->to,
                           "LAT,LON[,ALT] (default: its middle); without ALT 200 m above ground");
@@ -339,6 +212,8 @@ void add_flat(CLI::App& program) {
       ->check(in_range(1e-3, 1000.0));
   fly_command->add_option("--stats", fly->stats, "JSON file of figures, frame by frame");
   fly_command->callback([fly, fly_command] { film(*fly, *fly_command); });
+
+  add_flat_view(*command);
 
   auto pvs = std::make_shared<PvsOptions>();
   CLI::App* pvs_command =

@@ -1,6 +1,8 @@
 #include "app/scene_argument.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include "globe/base/error.h"
 #include "globe/effects/list.h"
@@ -15,6 +17,15 @@ template <class Value, class Said>
 void take(const CLI::App& command, const char* option, Value& value, const std::optional<Said>& said) {
   const CLI::Option* found = command.get_option_no_throw(option);
   if (said && found != nullptr && found->count() == 0) value = *said;
+}
+
+/// --with and --without.
+void change_effects(std::optional<scene::Scene>& scene, const ViewOptions& options) {
+  for (const std::string& name : options.with) add_effect(*scene, name);
+  for (const std::string& name : options.without) {
+    if (!scene || std::erase_if(scene->effects, [&](const auto& effect) { return effect.name == name; }) == 0)
+      throw globe::UsageError("--without " + name, "the scene has no such effect", "leave it out");
+  }
 }
 
 std::optional<scene::Scene> scene_of(const std::string& word) {
@@ -44,8 +55,29 @@ std::optional<scene::Scene> take_scene(const CLI::App& command, CameraOptions& o
   return scene;
 }
 
+void add_effect(scene::Scene& scene, const std::string& name) {
+  const auto kinds = globe::effects::effect_kinds();
+  const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == name; });
+  if (kind == kinds.end()) {
+    std::string names;
+    for (const auto& known : kinds) names += (names.empty() ? "" : ", ") + std::string(known.name);
+    throw globe::UsageError("--with " + name, "no such effect", "give one of " + names);
+  }
+  std::erase_if(scene.effects, [&](const auto& effect) { return effect.name == name; });
+  const scene::Scene usual = scene::parse_scene("planet = \"procedural\"\n[effects." + name + "]\n",
+                                                "--with " + name, std::span(kind, 1));
+  scene.effects.push_back(usual.effects.front());
+}
+
 std::optional<scene::Scene> take_scene(const CLI::App& command, ViewOptions& options) {
   std::optional<scene::Scene> scene = take_scene(command, static_cast<CameraOptions&>(options));
+  // Without a scene one that asks for nothing else.
+  if (!scene && (options.marks.any() || !options.with.empty())) {
+    scene.emplace().file = "command line";
+    scene->planet = options.planet;
+  }
+  if (options.marks.any()) add_marks(options.marks, options.optics.projection == "perspective", *scene);
+  change_effects(scene, options);
   if (!scene) return scene;
   const scene::Picture& picture = scene->picture;
   take(command, "--samples", options.samples, picture.samples);

@@ -1,5 +1,6 @@
 #include "app/view_options.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -44,12 +45,17 @@ glm::vec3 parse_color(const std::string& text) {
 
 void add_eye_options(CLI::App& command, CameraOptions& options) {
   command.add_flag("--agl", options.agl, "altitudes count from the ground");
-  command.add_option("--look", options.look, "HEADING,PITCH in degrees; -90 down, 0 level");
+  command.add_option("--look", options.look,
+                     "HEADING,PITCH[,ROLL] in degrees; a pitch of -90 looks down, 0 level");
   command.add_option("--size", options.size,
                      "WxH in pixels (default: 1280x720; fisheye 1024x1024, equirectangular 2048x1024)");
   add_optics_options(command, options.optics);
   command.add_option("--time", options.time,
                      "UTC date and time of the sun, ISO 8601 (default: 10:00 local solar time, 21 March)");
+  command
+      .add_option("--sun", options.overhead,
+                  "LAT,LON: where the sun stands in the zenith, in place of a time")
+      ->excludes("--time");
   command.add_option("--exaggeration", options.exaggeration, "draw heights so many times as high")
       ->capture_default_str()
       ->check(in_range(0.0, 100.0));
@@ -90,6 +96,7 @@ void add_picture_options(CLI::App& command, ViewOptions& options) {
 void add_drawing_options(CLI::App& command, ViewOptions& options) {
   add_camera_options(command, options);
   add_picture_options(command, options);
+  add_mark_options(command, options.marks);
   command
       .add_option("--positions", options.positions,
                   "places of vertices: exact; or, to see what accuracy costs, quadratic, chord or float32")
@@ -99,13 +106,20 @@ void add_drawing_options(CLI::App& command, ViewOptions& options) {
           "--window", options.window,
           "how vertices lie in GPU memory: plain squares; or hexagon, 6 % less in all, the same picture")
       ->capture_default_str();
+  command.add_option("--with", options.with,
+                     "an effect as it usually is, besides those of a scene: sea, clouds, atmosphere, ...");
+  command.add_option("--without", options.without, "an effect of the scene that is left out");
+}
+
+void add_look_options(CLI::App& command, ViewOptions& options) {
+  command.add_flag("--wireframe", options.wireframe, "draw the triangles");
+  command.add_option("--show", options.show, "levels, patches, normals or depth")
+      ->check(CLI::IsMember({"levels", "patches", "normals", "depth"}));
 }
 
 void add_output_options(CLI::App& command, ViewOptions& options) {
   command.add_option("-o,--output", options.output, "file to write")->required();
-  command.add_flag("--wireframe", options.wireframe, "draw the triangles");
-  command.add_option("--show", options.show, "levels, patches, normals or depth")
-      ->check(CLI::IsMember({"levels", "patches", "normals", "depth"}));
+  add_look_options(command, options);
   command.add_flag("--overwrite", options.overwrite, "replace existing output");
 }
 
@@ -126,15 +140,21 @@ std::shared_ptr<const globe::planet::Surface> open_planet(const CameraOptions& o
 }
 
 Look parse_look(const std::string& text) {
-  const std::size_t comma = text.find(',');
-  const auto heading = to_double(std::string_view(text).substr(0, comma));
-  const auto pitch =
-      comma == std::string::npos ? std::nullopt : to_double(std::string_view(text).substr(comma + 1));
-  if (!heading || !pitch || std::abs(*pitch) > 90.0) {
-    throw UsageError("--look " + text, "not a heading and a pitch in [-90, 90]",
-                     "write HEADING,PITCH in degrees, such as 45,-10");
+  std::array<std::optional<double>, 3> angles;
+  std::string_view rest = text;
+  std::size_t count = 0;
+  for (std::size_t comma = 0; comma != std::string_view::npos && count < angles.size(); ++count) {
+    comma = rest.find(',');
+    angles[count] = to_double(rest.substr(0, comma));
+    if (comma != std::string_view::npos) rest.remove_prefix(comma + 1);
+    if (count + 1 == angles.size() && comma != std::string_view::npos) angles[0].reset();
   }
-  return {*heading, *pitch};
+  const auto [heading, pitch, roll] = angles;
+  if (!heading || !pitch || std::abs(*pitch) > 90.0 || (count == 3 && !roll)) {
+    throw UsageError("--look " + text, "not a heading, a pitch in [-90, 90] and perhaps a roll",
+                     "write HEADING,PITCH or HEADING,PITCH,ROLL in degrees, such as 45,-10");
+  }
+  return {*heading, *pitch, roll.value_or(0.0)};
 }
 
 Size parse_size(const std::string& text) {
@@ -208,6 +228,10 @@ Sunlight sun_for(const CameraOptions& options, const globe::planet::Surface& sur
 Sunlight sun_for(const CameraOptions& options, const std::string& body, const globe::geo::Geodetic& target) {
   namespace geo = globe::geo;
   const globe::scene::Sun& sun = options.sun;
+  if (!options.overhead.empty()) {
+    const geo::Geodetic over = globe::geo::parse_point(options.overhead).position;
+    return Sunlight(geo::normal_from_degrees(over.lat_deg, over.lon_deg));
+  }
   if (options.time.empty() && sun.overhead)
     return Sunlight(geo::normal_from_degrees(sun.overhead->lat_deg, sun.overhead->lon_deg));
   if (options.time.empty() && sun.position) {

@@ -4,7 +4,9 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "app/mark_options.h"
 #include "app/optics.h"
 #include "globe/geo/ellipsoid.h"
 #include "globe/geo/utc.h"
@@ -21,6 +23,7 @@ struct CameraOptions {
   std::string size;  ///< empty: what is usual for the projection
   OpticsOptions optics;
   std::string time;
+  std::string overhead;   ///< --sun
   globe::scene::Sun sun;  ///< a scene's, where there is no time
   int detail = 64;
   std::string morph = "on";
@@ -50,12 +53,16 @@ struct ViewOptions : CameraOptions {
   bool quiet = false;
   std::string device = "auto";
   int memory_mb = 640;
+  std::vector<std::string> with, without;  ///< effects besides those of a scene, and its own left out
+  MarkOptions marks;
   /// Bare where an effect of the scene draws the sea.
   globe::planet::SeaFloor sea_floor = globe::planet::SeaFloor::kFlooded;
 };
 
 /// What becomes of pixels, of any ground; the device and the memory.
 void add_picture_options(CLI::App& command, ViewOptions& options);
+/// What is shown.
+void add_look_options(CLI::App& command, ViewOptions& options);
 /// The file and what is shown in it.
 void add_output_options(CLI::App& command, ViewOptions& options);
 /// What frames are drawn with, whatever becomes of them.
@@ -68,7 +75,8 @@ void add_view_options(CLI::App& command, ViewOptions& options);
 std::shared_ptr<const globe::planet::Surface> open_planet(const CameraOptions& options);
 std::shared_ptr<const globe::planet::Surface> open_planet(const ViewOptions& options);
 
-/// "HEADING,PITCH". Throws UsageError unless both are numbers and the pitch lies in [-90, 90].
+/// "HEADING,PITCH" or "HEADING,PITCH,ROLL". Throws UsageError unless both are numbers and the pitch lies in
+/// [-90, 90].
 Look parse_look(const std::string& text);
 
 struct Size {
@@ -104,8 +112,8 @@ class Sunlight {
   double speed_ = 0;
 };
 
-/// The sun of --time, or as a scene has it, or at 10:00 local solar time at the target. Throws UsageError for
-/// a time on a planet where it says nothing.
+/// The sun of --sun or --time, or as a scene has it, or at 10:00 local solar time at the target. Throws
+/// UsageError for a time on a planet where it says nothing.
 Sunlight sun_for(const CameraOptions& options, const globe::planet::Surface& surface,
                  const globe::geo::Geodetic& target);
 /// @param body  as PlanetInfo::body has it

@@ -147,6 +147,7 @@ class Clouds final : public render::Effect {
     return shader;
   }
 
+  bool moves() const override { return true; }
   render::Stage stage() const override { return render::Stage::kLayer; }
 
   render::Verdict judge(const render::EffectView& view) const override {

@@ -132,6 +132,7 @@ class SeaEffect final : public render::Effect {
     shader.defines = {"MAX_WAVES " + std::to_string(kMostWaves)};
     return shader;
   }
+  bool moves() const override { return true; }
   render::Stage stage() const override { return render::Stage::kSurface; }
 
   std::optional<double> water_height_m(const render::EffectView& view) const override {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "globe/base/error.h"
@@ -180,6 +181,27 @@ Point point_from_mgrs(const std::string& mgrs) {
   return point_from_zone(zone, north, x, y);
 }
 
+bool is_hemisphere(const std::string& word) {
+  return word.size() == 1 && std::string_view("NSEW").find(upper(word[0])) != std::string_view::npos;
+}
+
+/// "10.25 N 20.5 E", "47° 7' 24\" N 11° 0' 0\" E" and "N 47.5 E 11.2" as two angles and what follows them; as
+/// they are where there are not two such letters.
+std::vector<std::string> with_letters_joined(const std::vector<std::string>& words) {
+  const bool ahead = is_hemisphere(words.front());
+  std::vector<std::string> angles;
+  std::string angle;
+  std::size_t k = 0;
+  for (; k < words.size() && angles.size() < 2; ++k) {
+    angle += words[k];
+    if (is_hemisphere(words[k]) != ahead) angles.push_back(std::exchange(angle, {}));
+  }
+  const bool two = std::count_if(words.begin(), words.end(), is_hemisphere) == 2 && angles.size() == 2;
+  if (!two) return words;
+  angles.insert(angles.end(), words.begin() + static_cast<std::ptrdiff_t>(k), words.end());
+  return angles;
+}
+
 bool is_unit(std::string_view word) {
   return std::any_of(kUnits.begin(), kUnits.end(), [&](const Unit& unit) { return unit.name == word; });
 }
@@ -213,6 +235,7 @@ Point parse_point(std::string_view text) {
     if (const auto mgrs = mgrs_of(words)) return point_from_mgrs(*mgrs);
     if (words.size() == 3 && is_zone(words[0]) && plain_number(words[1]) && plain_number(words[2]))
       return point_from_utm(words);
+    if (words.size() > 3) words = with_letters_joined(words);
     if (words.size() == 2 || words.size() == 3) return point_from_angles(words);
   } catch (const GeographicLib::GeographicErr& error) {
     throw UsageError("point " + in_quotes(text), error.what(), kHowToWrite);

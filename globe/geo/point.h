@@ -12,8 +12,9 @@ struct Point {
   bool has_alt = false;  ///< whether an ALT was given
 };
 
-/// Reads `LAT LON [ALT]` or `LAT,LON[,ALT]` (plain numbers or degrees, minutes, seconds with N, S, E, W), UTM
-/// or UPS (`33N 500000 4000000`) or MGRS, with or without spaces (`33T WN 80000 90000`; the square's centre).
+/// Reads `LAT LON [ALT]` or `LAT,LON[,ALT]` (plain numbers or degrees, minutes, seconds with N, S, E, W, also
+/// apart: `10.5 N 20 E`), UTM or UPS (`33N 500000 4000000`) or MGRS, with or without spaces (`33T WN 80000
+/// 90000`; the square's centre).
 ///
 /// Latitude first, unless the letters say otherwise. Plain numbers are read by from_chars before anything
 /// else: GeographicLib's GeoCoords would take the e of `1e-7` for east. Where `33N 10 500` could be a

@@ -2,7 +2,9 @@
 
 #include <erfa.h>
 
+#include <array>
 #include <charconv>
+#include <cstdio>
 #include <regex>
 
 #include "globe/base/error.h"
@@ -49,6 +51,16 @@ UtcDate parse_utc(const std::string& text, const std::string& what) {
   }
   date.rest -= offset_minutes / 1440.0;
   return date;
+}
+
+std::string iso8601(const UtcDate& date) {
+  int year = 0, month = 0, day = 0;
+  std::array<int, 4> time{};
+  eraD2dtf("UTC", 0, date.day, date.rest, &year, &month, &day, time.data());
+  char text[40];
+  std::snprintf(text, sizeof text, "%04d-%02d-%02dT%02d:%02d:%02dZ", year, month, day, time[0], time[1],
+                time[2]);
+  return text;
 }
 
 double seconds_between(const UtcDate& from, const UtcDate& to) {

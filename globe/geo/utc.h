@@ -16,6 +16,9 @@ struct UtcDate {
 /// Throws UsageError for anything else or a date that does not exist.
 UtcDate parse_utc(const std::string& iso8601, const std::string& what = "time");
 
+/// "2026-03-21T10:00:00Z", to the nearest second.
+std::string iso8601(const UtcDate& date);
+
 /// Seconds from one date to another, leap seconds left out; exact to a microsecond within a century.
 double seconds_between(const UtcDate& from, const UtcDate& to);
 

@@ -93,15 +93,26 @@ std::vector<T> Framebuffer::read(GLenum pixel_format, GLenum type, std::size_t c
   resolve();
   const std::size_t row = static_cast<std::size_t>(width_) * channels;
   std::vector<T> pixels(row * static_cast<std::size_t>(height_));
+  read_rectangle(0, 0, width_, height_, pixel_format, type, pixels.data());
+  flip_rows(pixels.data(), row * sizeof(T), static_cast<std::size_t>(height_));
+  return pixels;
+}
+
+void Framebuffer::read_rectangle(int x, int y, int width, int height, GLenum pixel_format, GLenum type,
+                                 void* pixels) const {
   // Reading is bound and put back, for want of a glReadPixels that names its framebuffer.
   GLint bound = 0;
   glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &bound);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, readable().id());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width_, height_, pixel_format, type, pixels.data());
+  glReadPixels(x, y, width, height, pixel_format, type, pixels);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(bound));
-  flip_rows(pixels.data(), row * sizeof(T), static_cast<std::size_t>(height_));
-  return pixels;
+}
+
+float Framebuffer::read_depth_at(int column, int row) const {
+  float depth = 0;
+  read_rectangle(column, height_ - 1 - row, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
+  return depth;
 }
 
 std::vector<std::uint8_t> Framebuffer::read_rgba8() const {

@@ -52,6 +52,11 @@ class Framebuffer {
   std::vector<std::uint8_t> read_rgba8() const;
   std::vector<float> read_rgba_float() const;
   std::vector<float> read_depth() const;
+  /// Depth-buffer value of one pixel of the picture resolved last, column from the left and row from the top.
+  /// It waits for the GPU.
+  float read_depth_at(int column, int row) const;
+  /// What a finished picture is copied from, after resolve(): one sample.
+  GLuint resolved_id() const { return readable().id(); }
 
  private:
   static void destroy(GLuint id);
@@ -63,6 +68,8 @@ class Framebuffer {
   RenderbufferName attach_renderbuffer(GLenum attachment, GLenum format) const;
   const FramebufferName& readable() const { return samples() > 1 ? resolved_ : drawn_; }
 
+  void read_rectangle(int x, int y, int width, int height, GLenum pixel_format, GLenum type,
+                      void* pixels) const;
   template <class T>
   std::vector<T> read(GLenum pixel_format, GLenum type, std::size_t channels) const;
 

@@ -143,6 +143,7 @@ class Surface {
   bool is_airless() const { return info_.body == "moon"; }
   bool has_sea() const { return dataset_ == nullptr || info_.body == "earth"; }
   /// The ground below height 0 is drawn itself, for a sea that is drawn over it.
+  SeaFloor sea_floor() const { return sea_floor_; }
   bool has_bare_floor() const { return has_sea() && sea_floor_ == SeaFloor::kBare; }
   /// Height at which ground of a height is drawn: at 0 where it lies under a sea.
   double drawn_height(double height_m) const {

@@ -119,6 +119,9 @@ class Effect {
   /// Whether there is anything of it to see in a view. Cheap, a function of the view alone.
   virtual Verdict judge(const EffectView& view) const = 0;
 
+  /// Whether it looks otherwise from second to second while nothing else changes.
+  virtual bool moves() const { return false; }
+
   /// The look of the ground, where the effect gives it another; the same all the time.
   virtual std::shared_ptr<const planet::Coloring> coloring() const { return nullptr; }
 

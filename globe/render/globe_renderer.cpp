@@ -43,17 +43,14 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
     : surface_(std::move(surface)),
       settings_(settings),
       effects_(std::move(effects)),
+      switched_off_(effects_.size()),
       effect_shaders_(effects_),
       verdicts_(effects_.size()),
       patches_(settings.clipmap),
       view_(sizeof(ViewBlock)),
       region_(std::move(region)),
       loader_(settings.clipmap, surface_, settings.max_level, settings.load_ahead) {
-  const bool tinted = settings_.show != Show::kGround || settings_.wireframe;
-  for (std::size_t k = 0; k < kLooks.size(); ++k)
-    ground_[k] = {ground_sources(kLooks[k], textures(), tinted, settings_.air.haze), effect_shaders_};
-  for (std::size_t k = 0; region_ && k < kLooks.size(); ++k)
-    around_[k] = {ground_sources(kLooks[k], textures(), tinted, settings_.air.haze, true), effect_shaders_};
+  make_ground_programs();
   if (!settings_.background) sky_.emplace(has_air(surface_->info()), settings_.air, effect_shaders_);
   if (effect_shaders_.may_keep_light()) light_.emplace();
   for (const NamedEffect& named : effects_) {
@@ -61,6 +58,41 @@ GlobeRenderer::GlobeRenderer(std::shared_ptr<const planet::Surface> surface, con
     if (auto coloring = named.effect->coloring()) coloring_ = std::move(coloring);
   }
   if (region_) region_->compile(effect_host(), coloring_.get());
+}
+
+void GlobeRenderer::make_ground_programs() {
+  const bool tinted = settings_.show != Show::kGround || settings_.wireframe;
+  for (std::size_t k = 0; k < kLooks.size(); ++k)
+    ground_[k] = {ground_sources(kLooks[k], textures(), tinted, settings_.air.haze), effect_shaders_};
+  for (std::size_t k = 0; region_ && k < kLooks.size(); ++k)
+    around_[k] = {ground_sources(kLooks[k], textures(), tinted, settings_.air.haze, true), effect_shaders_};
+}
+
+void GlobeRenderer::show_as(Show show, bool wireframe, bool cull_patches) {
+  settings_.cull_patches = cull_patches;
+  if (show == settings_.show && wireframe == settings_.wireframe) return;
+  settings_.show = show;
+  settings_.wireframe = wireframe;
+  make_ground_programs();
+}
+
+bool GlobeRenderer::moves() const {
+  for (std::size_t k = 0; k < effects_.size(); ++k) {
+    if (verdicts_[k].active && effects_[k].effect->moves()) return true;
+  }
+  return false;
+}
+
+bool GlobeRenderer::colors_ground(const std::string& name) const {
+  return std::any_of(effects_.begin(), effects_.end(), [&](const NamedEffect& named) {
+    return named.name == name && named.effect->coloring() != nullptr;
+  });
+}
+
+void GlobeRenderer::switch_effect(const std::string& name, bool on) {
+  for (std::size_t k = 0; k < effects_.size(); ++k) {
+    if (effects_[k].name == name) switched_off_[k] = !on;
+  }
 }
 
 double GlobeRenderer::height_above_ground(const glm::dvec3& position, bool wait) const {
@@ -129,7 +161,8 @@ void GlobeRenderer::begin_frame(const glm::dvec3& position, const glm::dvec3& su
                          finest.level,
                          {sun, settings_.show == Show::kNormals, coloring_}};
   // Frames in real time keep the light they have while the sun stands still, near enough.
-  if (!wait && loader_.state() && glm::distance(sun, state().target.lighting.sun) < kSunMoved)
+  if (!wait && loader_.state() && glm::distance(sun, state().target.lighting.sun) < kSunMoved &&
+      wanted.lighting.normals == state().target.lighting.normals)
     wanted.lighting = state().target.lighting;
   const bool whole = wait || !loader_.state();
   serving_ = whole ? Serving::kItsSet : Serving::kCompiled;
@@ -169,8 +202,9 @@ void GlobeRenderer::draw_view(const Camera& camera, const gl::Framebuffer& targe
   const EffectHost host = effect_host();
   EffectView effect_view{host,     camera, view,     *surface_, list, target,
                          instant_, sun_,   height_m, above_m_,  {},   0};
-  for (const NamedEffect& named : effects_) {
-    if (const auto water_m = named.effect->water_height_m(effect_view)) effect_view.water_m = water_m;
+  for (std::size_t k = 0; k < effects_.size(); ++k) {
+    if (switched_off_[k]) continue;
+    if (const auto water_m = effects_[k].effect->water_height_m(effect_view)) effect_view.water_m = water_m;
   }
   effect_view.active = active_ = prepare_effects(effect_view);
   const bool keep_light = (active_ & EffectShaders::kKeepLight) != 0;
@@ -195,7 +229,7 @@ int GlobeRenderer::prepare_effects(const EffectView& view) {
   int active = 0;
   for (std::size_t k = 0; k < effects_.size(); ++k) {
     Effect& effect = *effects_[k].effect;
-    Verdict verdict = effect.judge(view);
+    Verdict verdict = switched_off_[k] ? Verdict{false, "switched off"} : effect.judge(view);
     if (verdict.active) {
       active |= 1 << k;
       if (effect.stage() != Stage::kNone) active |= EffectShaders::kKeepLight;

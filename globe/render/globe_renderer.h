@@ -67,6 +67,15 @@ class GlobeRenderer : public SurfaceRenderer {
   void set_instant(const Instant& instant) override { instant_ = instant; }
   /// Of the frame begun last, its views so far; in the order of the effects.
   std::vector<EffectState> effect_states() const;
+  /// Whether an effect has the picture change while nothing else does; in the frame drawn last.
+  bool moves() const;
+  /// Whether an effect gives the ground a look of its own (Effect::coloring).
+  bool colors_ground(const std::string& name) const;
+  /// Switches one of the effects that it was given off, or on again: off it is as one that has nothing to do.
+  /// REQUIRES: !colors_ground(name)
+  void switch_effect(const std::string& name, bool on);
+  /// Shows something else from the next frame on.
+  void show_as(Show show, bool wireframe, bool cull_patches);
   /// Of the picture of light that effects with passes are drawn over; 0 without such.
   std::size_t light_bytes() const { return light_ ? light_->gpu_bytes() : 0; }
 
@@ -98,6 +107,7 @@ class GlobeRenderer : public SurfaceRenderer {
   void draw_batches(const DrawList& list, const glm::vec4& overlay);
   void draw_region(const Camera& camera, const ViewBlock& view, int picture_height);
   const gl::Program& program_for(const Batch& batch);
+  void make_ground_programs();
   EffectHost effect_host() const;
   /// Which effects are active in a view, prepared for it: one bit each.
   int prepare_effects(const EffectView& view);
@@ -106,6 +116,7 @@ class GlobeRenderer : public SurfaceRenderer {
   std::shared_ptr<const planet::Surface> surface_;
   RenderSettings settings_;
   std::vector<NamedEffect> effects_;
+  std::vector<bool> switched_off_;  ///< of effects_
   EffectShaders effect_shaders_;
   std::vector<Verdict> verdicts_;                     ///< of effects_, in the frame begun last
   int active_ = 0;                                    ///< effects of the view being drawn

@@ -141,8 +141,12 @@ TEST(H20, AFlightThatJumpsIsClearOfMountainsOnBothSides) {
   for (int frame = 0; frame <= kFrames; ++frame) {
     const Geodetic place = flight.at(static_cast<double>(frame) / kFrames, true).place;
     least_m = std::min(least_m, above_ground(*surface, place));
-    if (frame == kFrames / 2) EXPECT_NEAR(place.lat_deg, -43.2, 1e-6);
-    if (frame == kFrames / 2 - 1) EXPECT_NEAR(place.lon_deg, -105.9, 0.02);
+    if (frame == kFrames / 2) {
+      EXPECT_NEAR(place.lat_deg, -43.2, 1e-6);
+    }
+    if (frame == kFrames / 2 - 1) {
+      EXPECT_NEAR(place.lon_deg, -105.9, 0.02);
+    }
   }
   EXPECT_GE(least_m, 2.0 - 1e-6);
 }

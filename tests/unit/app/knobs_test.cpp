@@ -30,12 +30,13 @@ const Words kNoKnobs{
     // what is asked
     "--at", "--pixel", "--look", "--from", "--to", "--agl", "--time", "--fov", "--size", "--frames", "--fps",
     "--extent", "--range", "--layer", "--show", "--wireframe", "--background", "--exaggeration", "--drawn",
-    "--projection", "--axis", "--moment", "tune --error", "--details", "--full", "--cone", "--polygon",
-    "--box", "--edges", "--complement", "--inner", "--near", "--radius", "find --count", "--name", "--where",
-    "--columns", "--refraction", "--suite", "--only", "--hard", "--compare", "--rounds", "--verify",
-    "lookup --level", "height --level", "profile --level", "export --level", "flat --center", "flat --side",
-    "flat --shadows", "flat --materials", "flat --cloud-shadows", "flat endless --height",
-    "flat endless --speed", "flat endless --sight",
+    "--projection", "--axis", "--moment", "--sun", "--with", "--without", "--features", "--play", "--fresh",
+    "--overlay", "tune --error", "--details", "--full", "--cone", "--polygon", "--box", "--edges",
+    "--complement", "--inner", "--near", "--radius", "find --count", "--name", "--where", "--columns",
+    "--refraction", "--suite", "--only", "--hard", "--compare", "--rounds", "--verify", "lookup --level",
+    "height --level", "profile --level", "export --level", "flat --center", "flat --side", "flat --shadows",
+    "flat --materials", "flat --cloud-shadows", "flat endless --height", "flat endless --speed",
+    "flat endless --sight", "--shapes", "--graticule", "--labels",
     // of fractal ground: which ground that is, and how much of it is there
     "--iterations", "--roughness", "--relief", "--area", "--base", "--contrast", "--method",
     "flat endless --block", "flat endless --blocks",
@@ -43,8 +44,8 @@ const Words kNoKnobs{
     "--color", "--latitude", "--voids", "--geoid", "--datum", "--credit", "--registration", "--crs",
     "--nodata", "--scale", "--offset", "--units", "--rim",
     // where it goes, and how it is written
-    "--output", "--overwrite", "--quiet", "--progress", "--json", "--csv", "--geojson", "--strict",
-    "--precision", "--title", "--stats", "--trace", "--contact-sheet",
+    "--output", "--folder", "--overwrite", "--quiet", "--progress", "--json", "--csv", "--geojson",
+    "--strict", "--precision", "--title", "--stats", "--trace", "--contact-sheet",
     // what it may use: the same bytes with more or less
     "--memory", "--threads", "--jobs", "--job", "--device", "--wait", "--budget", "flat --culling",
     "flat --pvs", "flat endless --slack", "flat endless --cached-areas"};
