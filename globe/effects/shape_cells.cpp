@@ -118,8 +118,9 @@ std::uint32_t ShapeCells::build(const Cell& cell, const std::vector<std::uint32_
   const double side = cell.side / kSide;
   std::vector<std::uint32_t> inside;
   for (std::size_t k = 0; k < kSide * kSide; ++k) {
-    const Cell part{cell.x + side * static_cast<double>(k % kSide),
-                    cell.y + side * static_cast<double>(k / kSide), side, cell.depth + 1};
+    const std::size_t row = k / kSide;
+    const Cell part{cell.x + side * static_cast<double>(k % kSide), cell.y + side * static_cast<double>(row),
+                    side, cell.depth + 1};
     inside.clear();
     std::copy_if(edges.begin(), edges.end(), std::back_inserter(inside),
                  [&](std::uint32_t e) { return meets(all_[e], part.x, part.y, side); });
