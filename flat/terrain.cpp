@@ -13,22 +13,13 @@ namespace {
 constexpr double kStepsAMetre = 1024.0;
 
 /// z of the mesh of a level over a post of level 0, both counted in a patch.
-/// @param joined  its sides are those of the next coarser level
-double mesh_z(const Terrain& terrain, int first_column, int first_row, int level, bool joined, int column,
-              int row) {
+double mesh_z(const Terrain& terrain, int first_column, int first_row, int level, int column, int row) {
   const int step = 1 << level;
-  const int cells = kPatchCells / step;
-  const int i = std::min(column / step, cells - 1);
-  const int j = std::min(row / step, cells - 1);
-  const auto post_z = [&](int p, int q) {
-    return static_cast<double>(terrain.z(first_column + p * step, first_row + q * step));
-  };
+  const int last = kPatchCells / step - 1;
+  const int i = std::min(column / step, last);
+  const int j = std::min(row / step, last);
   const auto z = [&](int di, int dj) {
-    const int p = i + di, q = j + dj;
-    // On a coarser side odd posts go: the mesh is there as though they lay between their neighbours.
-    if (joined && p % cells == 0 && q % 2 == 1) return 0.5 * (post_z(p, q - 1) + post_z(p, q + 1));
-    if (joined && q % cells == 0 && p % 2 == 1) return 0.5 * (post_z(p - 1, q) + post_z(p + 1, q));
-    return post_z(p, q);
+    return static_cast<double>(terrain.z(first_column + (i + di) * step, first_row + (j + dj) * step));
   };
   return in_cell({z(0, 0), z(1, 0), z(0, 1), z(1, 1)}, splits_north_east(i, j),
                  static_cast<double>(column - i * step) / step, static_cast<double>(row - j * step) / step);
@@ -52,14 +43,8 @@ PatchSummary summary_of(const Terrain& terrain, int patch_column, int patch_row)
       summary.lowest_m = std::min(summary.lowest_m, z);
       summary.highest_m = std::max(summary.highest_m, z);
       for (std::size_t level = 1; level < kLevels; ++level) {
-        // The coarsest level has no coarser sides.
-        const auto off = [&](bool joined) {
-          return std::abs(
-              mesh_z(terrain, first_column, first_row, static_cast<int>(level), joined, column, row) -
-              static_cast<double>(z));
-        };
-        const auto error =
-            static_cast<float>(level + 1 < kLevels ? std::max(off(false), off(true)) : off(false));
+        const double mesh = mesh_z(terrain, first_column, first_row, static_cast<int>(level), column, row);
+        const auto error = static_cast<float>(std::abs(mesh - static_cast<double>(z)));
         for (std::size_t quarter = 0; quarter < 4; ++quarter) {
           if (!touches(quarter, column, row)) continue;
           float& largest = summary.errors_m[quarter][level];

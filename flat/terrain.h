@@ -23,7 +23,7 @@ using LevelErrors = std::array<float, kLevels>;
 struct PatchSummary {
   float lowest_m = 0, highest_m = 0;  ///< z of its posts
   /// The largest of each quarter: south-west, south-east, north-west, north-east. Seen from near, one quarter
-  /// counts for more than the others. Whichever sides are those of the next coarser level.
+  /// counts for more than the others.
   std::array<LevelErrors, 4> errors_m{};
 };
 
