@@ -41,7 +41,8 @@ std::vector<Family> families() {
       {.name = "flat",
        .studies = flat_studies,
        .knobs = {"flat --error", "flat --lod", "flat --morph", "flat --spacing", "flat endless --rings"},
-       .draws = true}};
+       .draws = true},
+      {.name = "marks", .studies = marks_studies, .approximations = {"marks.lines"}}};
 }
 
 }  // namespace app::accuracy

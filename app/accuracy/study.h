@@ -109,6 +109,7 @@ std::vector<Study> sky_studies(const Scope& scope);
 std::vector<Study> atmosphere_studies(const Scope& scope);
 std::vector<Study> shading_studies(const Scope& scope);
 std::vector<Study> flat_studies(const Scope& scope);
+std::vector<Study> marks_studies(const Scope& scope);
 
 /// Takes what work comes to, so that no compiler leaves it out.
 inline void keep(double result) {

@@ -7,7 +7,7 @@ namespace globe::effects {
 namespace {
 
 /// Of a label before it is shown at all. One that has as much hides what it overlaps wholly.
-constexpr double kLeast = 0.125;
+constexpr double kLeast = 0.3;
 
 /// Along the axis on which two boxes are farther apart, pixels; below 0 they overlap.
 double gap(const LabelBox& a, const LabelBox& b) {
@@ -33,7 +33,7 @@ std::vector<double> label_shares(std::span<const LabelBox> boxes,
     shares[k] = share;
     standing.push_back(k);
   }
-  for (double& share : shares) share = glm::smoothstep(kLeast, 0.75, share);
+  for (double& share : shares) share = glm::smoothstep(kLeast, 0.9, share);
   return shares;
 }
 

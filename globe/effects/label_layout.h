@@ -22,6 +22,6 @@ struct LabelBox {
 std::vector<double> label_shares(std::span<const LabelBox> boxes,
                                  const std::function<double(std::size_t)>& seen = {});
 
-inline constexpr double kLabelGap = 4.0;  ///< pixels
+inline constexpr double kLabelGap = 6.0;  ///< pixels
 
 }  // namespace globe::effects

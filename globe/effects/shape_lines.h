@@ -45,7 +45,7 @@ struct LineView {
 };
 
 /// A line whose edges are straight in latitude and longitude (RFC 7946, 3.1.1), cut to arcs for a view: as
-/// few as its tolerance allows, none out of view or behind the horizon.
+/// few as its tolerance allows, none out of view or behind the horizon. @approximation marks.lines
 ///
 /// Its corners form a binary tree; a node knows how far its corners and edges are off the arc between its
 /// ends, so a frame takes time by what is in view of it, not by its corners. Long edges are halved until

@@ -9,7 +9,7 @@
 namespace app::view {
 namespace {
 
-constexpr ImU32 kLine = IM_COL32(255, 214, 64, 255);
+constexpr ImU32 kLine = IM_COL32(128, 230, 255, 255);
 constexpr ImU32 kShadow = IM_COL32(0, 0, 0, 160);
 
 /// Where a place is seen in the units of widgets; nothing behind the camera or the planet's horizon.

@@ -131,7 +131,7 @@ TEST(AccuracyKnobs, EveryApproximationThatNoOptionTurnsIsTaggedWhereItIsMadeAndI
 TEST(AccuracyKnobs, FamiliesDeclareWhatTheirStudiesAreAbout) {
   for (const app::accuracy::Family& family : app::accuracy::families()) {
     const bool quick = family.name == "geometry" || family.name == "geodesics" || family.name == "covers" ||
-                       family.name == "storage";
+                       family.name == "storage" || family.name == "marks";
     if (!quick && std::getenv("GLOBE_TEST_FULL") == nullptr) continue;
     const Words tags(family.approximations.begin(), family.approximations.end());
     Words knobs, found;

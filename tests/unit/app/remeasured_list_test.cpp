@@ -67,7 +67,8 @@ constexpr std::array kAgain{
     Again{"flat.levels", "LevelsOfARegionErrByWhatTheDepthOfPicturesSays", ""},
     Again{"flat.morph", "LeapsOfARegionsLevelsAreThoseOfTheTrianglesBeforeAndAfter", ""},
     Again{"flat.spacing", "PostsOfAPlanetsPartErrByWhatGeographicLibsFrameSays", ""},
-    Again{"flat.endless", "EndlessGroundErrsByWhatTheDepthOfPicturesSays", ""}};
+    Again{"flat.endless", "EndlessGroundErrsByWhatTheDepthOfPicturesSays", ""},
+    Again{"marks.lines", "", "places of the edge by the definition are the second method"}};
 
 std::string text_of(const fs::path& path) {
   std::ifstream file(path);

@@ -13,9 +13,14 @@ TEST(ParseLook, ReadsHeadingAndPitch) {
   EXPECT_EQ(look.pitch_deg, 10.0);
 }
 
+TEST(ParseLook, ReadsARoll) {
+  EXPECT_EQ(parse_look("10,-5,2.5").roll_deg, 2.5);
+  EXPECT_EQ(parse_look("10,-5").roll_deg, 0.0);
+}
+
 TEST(ParseLook, RefusesWhatIsNoView) {
   for (const char* text :
-       {"", "10", "10,", ",10", "10,91", "10,-90.5", "nan,0", "1e999,0", "10;5", "10,5,3"}) {
+       {"", "10", "10,", ",10", "10,91", "10,-90.5", "nan,0", "1e999,0", "10;5", "10,5,", "10,5,x", "10,5,3,1"}) {
     EXPECT_THROW(parse_look(text), globe::UsageError) << text;
   }
 }
