@@ -13,7 +13,10 @@ void add_window_options(CLI::App& command, WindowOptions& options) {
       ->capture_default_str()
       ->check(CLI::IsMember({"on", "off"}));
   command.add_flag("--fresh", options.fresh, "begin anew, not as the window was left");
-  command.add_option("--frames", options.frames, "close after so many frames, drawn as fast as can be")
+  command
+      .add_option(
+          "--frames", options.frames,
+          "close after so many frames, drawn as fast as can be, a sixtieth of a second of time to each")
       ->check(CLI::Range(1, 1'000'000));
   command.footer(
       "Drag turns the globe, the wheel comes nearer, right drag tilts; all keys are in the overlay (Tab).");

@@ -19,8 +19,8 @@ TEST(ParseLook, ReadsARoll) {
 }
 
 TEST(ParseLook, RefusesWhatIsNoView) {
-  for (const char* text :
-       {"", "10", "10,", ",10", "10,91", "10,-90.5", "nan,0", "1e999,0", "10;5", "10,5,", "10,5,x", "10,5,3,1"}) {
+  for (const char* text : {"", "10", "10,", ",10", "10,91", "10,-90.5", "nan,0", "1e999,0", "10;5", "10,5,",
+                           "10,5,x", "10,5,3,1"}) {
     EXPECT_THROW(parse_look(text), globe::UsageError) << text;
   }
 }
