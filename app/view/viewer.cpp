@@ -27,7 +27,7 @@ constexpr double kIdle = 0.5;            ///< seconds that it sleeps at most
 constexpr double kLongestStep = 0.1;     ///< seconds that may pass for the camera in a frame
 constexpr int kSettling = 3;             ///< frames that widgets take to answer
 constexpr float kWidth = 330.0f;         ///< of the overlay, in units of its text
-constexpr double kHigh = 9.0;            ///< radii above ground
+constexpr double kHigh = 2.0;            ///< radii above ground
 
 double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
@@ -67,7 +67,7 @@ void show_beginning(Session& session) {
     session.canvas.draw(session.scenery, camera, session.sunlight(), session.moment_s, wait, 0.0);
   };
   draw(session.navigator.eye().camera(high), true);
-  draw(session.navigator.camera(), false);
+  if (high.place.h_m != session.navigator.stand().place.h_m) draw(session.navigator.camera(), false);
   session.window.show(session.canvas.picture().resolved_id(), session.canvas.size());
   session.window.swap();
   session.scenery.complete();
