@@ -145,7 +145,7 @@ void add_accuracy(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "accuracy", "What each step of accuracy costs here: errors beside times, as a report");
   command->add_option("-o,--output", options->folder, "folder for accuracy.html, .csv and .json");
-  command->add_option("--suite", options->suite, "quick (two minutes) or full")
+  command->add_option("--suite", options->suite, "quick (six minutes) or full (half an hour, 3 GB)")
       ->capture_default_str()
       ->check(CLI::IsMember({"quick", "full"}));
   command->add_option("--only", options->only, "one family: " + names_of_families());

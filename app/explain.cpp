@@ -222,10 +222,9 @@ Plan plan_of(ExplainOptions options, const CLI::App& command) {
       plan.effects[k].without = plan.none;
     } else {
       const std::vector<Time> pair = measured_beside_whole(without(*scene, at));
-      // The whole scene's frame was measured again beside it: what the machine does meanwhile falls on both.
-      plan.effects[k].without = Time{pair[1].median + plan.all.median - pair[0].median,
-                                     pair[1].low + plan.all.median - pair[0].median,
-                                     pair[1].high + plan.all.median - pair[0].median};
+      // The whole scene's frame was measured again beside it: the machine's pace meanwhile falls on both.
+      const double pace = plan.all.median / pair[0].median;
+      plan.effects[k].without = Time{pair[1].median * pace, pair[1].low * pace, pair[1].high * pace};
     }
   }
   progress.clear();

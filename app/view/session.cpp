@@ -31,6 +31,7 @@ Session::Session(globe::gl::Window& shown_in, Scenery& shown, const SessionSetti
                 world(), settings.start),
       measure(shown.ellipsoid()),
       flight(settings.flight),
+      features(settings.features),
       folder(settings.folder),
       moment_s(settings.moment_s),
       on_path(settings.plays && settings.flight != nullptr),
@@ -38,7 +39,6 @@ Session::Session(globe::gl::Window& shown_in, Scenery& shown, const SessionSetti
       time_(settings.time),
       overhead_(settings.overhead),
       sunlight_(glm::dvec3(1, 0, 0)) {
-  if (!settings.features.empty()) features = std::make_unique<globe::search::FeatureIndex>(settings.features);
   set_sun();
 }
 

@@ -44,15 +44,14 @@ struct SessionSettings {
   double moment_s = 0;
   std::string time, overhead;            ///< of the sun, in place of the scenery's own; at most one
   std::shared_ptr<const Flight> flight;  ///< along a scene's path; null: it has none
-  std::string features;                  ///< database for searching; empty: none
-  std::filesystem::path folder = ".";    ///< for pictures and films
+  std::shared_ptr<globe::search::FeatureIndex> features;  ///< for searching; null: none
+  std::filesystem::path folder = ".";                     ///< for pictures and films
   bool shows_overlay = true;
   bool plays = false;  ///< along the path at first
 };
 
 /// What happens in a window: everything that its panels and its keys act on.
 struct Session {
-  /// Throws globe::Error for a database that is none.
   Session(globe::gl::Window& window, Scenery& scenery, const SessionSettings& settings);
 
   std::string title;  ///< of the window
@@ -63,7 +62,7 @@ struct Session {
   FrameFigures figures;
   Measure measure;
   std::shared_ptr<const Flight> flight;
-  std::unique_ptr<globe::search::FeatureIndex> features;
+  std::shared_ptr<globe::search::FeatureIndex> features;
   std::optional<Recorder> recorder;
   std::filesystem::path folder;
 

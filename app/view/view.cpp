@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <future>
 #include <memory>
 
 #include "app/commands.h"
@@ -12,6 +13,7 @@
 #include "app/view/window_options.h"
 #include "app/view_options.h"
 #include "globe/base/error.h"
+#include "globe/clipmap/stream.h"
 #include "globe/gl/window.h"
 
 namespace app {
@@ -54,10 +56,13 @@ void show_globe(GlobeOptions options, const CLI::App& command) {
   const globe::render::RenderSettings settings = render_settings(view);
   if (options.window.plays && !(scene && scene->path))
     throw globe::UsageError("--play", "there is no path to follow", "give a scene with a [path]");
+  view.sea_floor = globe::planet::SeaFloor::kFlooded;  // of the first picture; the sea comes with the effects
   const auto surface = open_planet(view);
   sun_for(view, *surface, {});
 
   view::SessionSettings session = view::session_settings(options.window, view, word);
+  const auto ground =
+      std::async(std::launch::async, [&] { globe::clipmap::make_base_ground(settings.clipmap, *surface); });
   globe::gl::Window window(session.title + " (loading)", size.width, size.height);
   view::GlobeScenery scenery(word, view, scene, surface);
   session.moment_s = options.stand.moment_s;
@@ -76,6 +81,7 @@ void show_globe(GlobeOptions options, const CLI::App& command) {
     session.start = whole_globe(surface->ellipsoid());
     if (!view.look.empty()) session.start.look = parse_look(view.look);
   }
+  ground.wait();
   view::run_session(options.window, window, scenery, session);
 }
 

@@ -16,6 +16,7 @@
 #include "app/view/hands.h"
 #include "app/view/overlay.h"
 #include "app/view/panels/list.h"
+#include "app/view/process_age.h"
 
 namespace app::view {
 namespace {
@@ -70,7 +71,6 @@ void show_beginning(Session& session) {
   if (high.place.h_m != session.navigator.stand().place.h_m) draw(session.navigator.camera(), false);
   session.window.show(session.canvas.picture().resolved_id(), session.canvas.size());
   session.window.swap();
-  session.scenery.complete();
 }
 
 class Loop {
@@ -88,9 +88,11 @@ class Loop {
     if (!overlay_) std::fputs("globe: warning: no overlay: Dear ImGui finds no libGL here\n", stderr);
   }
 
-  std::size_t run(std::optional<int> frames) {
+  WindowRun run(std::optional<int> frames) {
     scripted_ = frames.has_value();
     show_beginning(session_);
+    const double first_picture_s = process_age_s();
+    session_.scenery.complete();
     while (!session_.closes && !session_.window.close_requested()) {
       if (frames && drawn_ >= static_cast<std::size_t>(*frames)) break;
       const bool busy = frames || is_busy();
@@ -108,7 +110,7 @@ class Loop {
       frame();
     }
     if (session_.recorder) session_.toggle_recording();
-    return drawn_;
+    return {drawn_, first_picture_s};
   }
 
  private:
@@ -212,6 +214,6 @@ class Loop {
 
 }  // namespace
 
-std::size_t run_window(Session& session, std::optional<int> frames) { return Loop(session).run(frames); }
+WindowRun run_window(Session& session, std::optional<int> frames) { return Loop(session).run(frames); }
 
 }  // namespace app::view

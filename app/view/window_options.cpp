@@ -1,5 +1,7 @@
 #include "app/view/window_options.h"
 
+#include <cstdio>
+
 #include "app/view/viewer.h"
 #include "globe/base/error.h"
 
@@ -16,7 +18,8 @@ void add_window_options(CLI::App& command, WindowOptions& options) {
   command
       .add_option(
           "--frames", options.frames,
-          "close after so many frames, drawn as fast as can be, a sixtieth of a second of time to each")
+          "close after so many frames, drawn as fast as can be, a sixtieth of a second of time to each, and "
+          "print when the first picture was there and what a frame took (of the last 240)")
       ->check(CLI::Range(1, 1'000'000));
   command.footer(
       "Drag turns the globe, the wheel comes nearer, right drag tilts; all keys are in the overlay (Tab).");
@@ -26,7 +29,8 @@ SessionSettings session_settings(const WindowOptions& options, const ViewOptions
                                  const std::string& word) {
   SessionSettings session;
   session.title = "globe - " + word;
-  session.features = options.features;
+  if (!options.features.empty())
+    session.features = std::make_shared<globe::search::FeatureIndex>(options.features);
   session.folder = options.folder;
   session.shows_overlay = options.overlay == "on";
   session.plays = options.plays;
@@ -52,7 +56,12 @@ void take_left_view(const LastView& left, SessionSettings& session) {
 void run_session(const WindowOptions& options, globe::gl::Window& window, Scenery& scenery,
                  const SessionSettings& session) {
   Session shown(window, scenery, session);
-  run_window(shown, options.frames);
+  const WindowRun run = run_window(shown, options.frames);
+  if (options.frames) {
+    std::printf("first picture %.2f s\nframes %zu\nframe p50 %.1f ms\nframe p99 %.1f ms\n",
+                run.first_picture_s, run.frames, shown.figures.percentile_ms(50),
+                shown.figures.percentile_ms(99));
+  }
   const auto views = views_file();
   if (views && !options.frames) remember_view(*views, scenery.name(), shown.view_now());
   if (!window.errors().empty())

@@ -22,7 +22,7 @@ struct WindowOptions {
 };
 void add_window_options(CLI::App& command, WindowOptions& options);
 
-/// Of a window that shows what the words name.
+/// Of a window that shows what the words name. Throws globe::Error for a database that is none.
 SessionSettings session_settings(const WindowOptions& options, const ViewOptions& view,
                                  const std::string& word);
 

@@ -1,10 +1,14 @@
 #include "globe/clipmap/level_data.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 
 #include "globe/clipmap/footprint.h"
@@ -193,13 +197,19 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
   const LevelData* painted =
       before != nullptr && before->lighting.coloring == lighting.coloring ? before : nullptr;
   const bool same_anchor = before != nullptr && before->anchor == data->anchor;
+  const bool same_light = before != nullptr && before->lighting == lighting;
   data->vertices = region.nodes;
-  for (int d = 0; d < kDiamonds; ++d) {
+  struct Blocks {
+    std::vector<VertexBlock> vertices;
+    std::vector<ShadingBlock> shading;
+  };
+  std::array<Blocks, kDiamonds> blocks;
+  tbb::parallel_for(0, kDiamonds, [&](int d) {
     const auto k = static_cast<std::size_t>(d);
     const NodeRect& rect = data->vertices[k];
-    if (rect.empty()) continue;
+    if (rect.empty()) return;
     data->footprint[k] = footprint(settings, region, d);
-    fill_vertices(settings, surface, level, d, same_anchor ? before : nullptr, *data, update.vertex_blocks);
+    fill_vertices(settings, surface, level, d, same_anchor ? before : nullptr, *data, blocks[k].vertices);
     // One guard node all round: bilinear look-ups at the border of the region read it, with weight zero.
     data->shading[k] = {std::max(rect.i0 * up - 1, 0), std::min(rect.i1 * up + 1, shading_n),
                         std::max(rect.j0 * up - 1, 0), std::min(rect.j1 * up + 1, shading_n)};
@@ -209,9 +219,12 @@ LevelUpdate update_level(const Settings& settings, const Surface& surface, Regio
          difference(data->shading[k], painted != nullptr ? painted->shading[k] : NodeRect{})) {
       data->ground[k].push_back(make_ground(surface, shading_level, d, part, lighting.coloring.get()));
     }
-    const bool same_light = before != nullptr && before->lighting == lighting;
     for (std::size_t p = same_light ? kept : 0; p < data->ground[k].size(); ++p)
-      update.shading_blocks.push_back(make_shading_block(lighting, shading_level, d, data->ground[k][p]));
+      blocks[k].shading.push_back(make_shading_block(lighting, shading_level, d, data->ground[k][p]));
+  });
+  for (Blocks& made : blocks) {
+    std::move(made.vertices.begin(), made.vertices.end(), std::back_inserter(update.vertex_blocks));
+    std::move(made.shading.begin(), made.shading.end(), std::back_inserter(update.shading_blocks));
   }
   data->lighting = lighting;
   data->region = std::move(region);

@@ -1,5 +1,8 @@
 #include "globe/clipmap/shading_nodes.h"
 
+#include <tbb/blocked_range2d.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -179,14 +182,22 @@ ShadingNodes make_shading_nodes(const Surface& surface, int level, int d, const 
   ground.resize(nodes);
   const int cells = std::min(kTileCells, planet::nodes_per_side(level));
   const int last = planet::nodes_per_side(level) / cells - 1;
-  for (int tj = std::min(nodes.j0 / cells, last); tj <= std::min(nodes.j1 / cells, last); ++tj) {
-    for (int ti = std::min(nodes.i0 / cells, last); ti <= std::min(nodes.i1 / cells, last); ++ti) {
-      const TileId id{d, level, ti, tj};
-      const NodeRect part{std::max(nodes.i0, id.first_i()), std::min(nodes.i1, id.first_i() + cells),
-                          std::max(nodes.j0, id.first_j()), std::min(nodes.j1, id.first_j() + cells)};
-      shade_tile_part(surface, *surface.tile(id), part, nodes, coloring, ground);
+  const auto tile_of = [&](int k) { return std::min(k / cells, last); };
+  // A node on the side of two tiles is the later one's, so that no two threads write it.
+  const auto last_own = [&](int k) { return (k + 1) * cells - (k == last ? 0 : 1); };
+  const auto shade = [&](int ti, int tj) {
+    const TileId id{d, level, ti, tj};
+    const NodeRect part{std::max(nodes.i0, id.first_i()), std::min(nodes.i1, last_own(ti)),
+                        std::max(nodes.j0, id.first_j()), std::min(nodes.j1, last_own(tj))};
+    shade_tile_part(surface, *surface.tile(id), part, nodes, coloring, ground);
+  };
+  const tbb::blocked_range2d<int> tiles(tile_of(nodes.j0), tile_of(nodes.j1) + 1, tile_of(nodes.i0),
+                                        tile_of(nodes.i1) + 1);
+  tbb::parallel_for(tiles, [&](const tbb::blocked_range2d<int>& some) {
+    for (int tj = some.rows().begin(); tj < some.rows().end(); ++tj) {
+      for (int ti = some.cols().begin(); ti < some.cols().end(); ++ti) shade(ti, tj);
     }
-  }
+  });
   return ground;
 }
 

@@ -30,6 +30,14 @@ std::size_t StateUpdate::upload_bytes() const {
   return bytes;
 }
 
+void make_base_ground(const Settings& settings, const planet::Surface& surface) {
+  const int level = settings.base_level + settings.shading_levels_at(settings.base_level);
+  const int tiles = std::max(1, planet::nodes_per_side(level) / planet::kTileCells);
+  tbb::parallel_for(0, planet::kDiamonds * tiles, [&](int k) {
+    for (int ti = 0; ti < tiles; ++ti) surface.tile({k / tiles, level, ti, k % tiles});
+  });
+}
+
 int levels_in_place(const Settings& settings, const ClipmapState& state, const dvec3& u) {
   const Nadir below(u);
   int count = 1;  // the base level always is

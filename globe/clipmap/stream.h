@@ -49,6 +49,10 @@ enum class Stride { kWhole, kStep };
 StateUpdate advance(const Settings& settings, const planet::Surface& surface, const Target& target,
                     const ClipmapState* before, Stride stride, int fills = 2);
 
+/// Makes all the ground that a base level is shaded by, for the surface to hold, on all cores: for the time
+/// before there is anything to draw with. REQUIRES: the surface's cache holds them, some 30 MB.
+void make_base_ground(const Settings& settings, const planet::Surface& surface);
+
 /// Levels of a state, from its base on, whose regions are the right ones for a nadir. Regions move only when
 /// the nadir comes closer to another node of their lattice.
 int levels_in_place(const Settings& settings, const ClipmapState& state, const dvec3& u);

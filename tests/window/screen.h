@@ -54,7 +54,9 @@ class Screen {
     if (server_ == 0) {
       dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
       dup2(fd, 7);
-      execlp("Xvfb", "Xvfb", "-displayfd", "7", "-screen", "0", size.c_str(), "-nolisten", "tcp", nullptr);
+      // It would start anew, and refuse who comes meanwhile, whenever its last client left: xdotool, often.
+      execlp("Xvfb", "Xvfb", "-displayfd", "7", "-screen", "0", size.c_str(), "-noreset", "-nolisten", "tcp",
+             nullptr);
       _exit(127);
     }
     close(fd);

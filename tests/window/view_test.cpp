@@ -248,7 +248,7 @@ TEST_F(View, AFlightOfManyFramesHoldsNoMoreAndMoreMemory) {
   const pid_t child =
       window::spawn({GLOBE_PROGRAM, "view", (folder_ / "round.toml").string(), "--play", "--frames",
                      std::to_string(frames), "--size", "96x64", "--detail", "32", "--memory", "64"},
-                    environment, "/dev/null", (folder_ / "err").string());
+                    environment, (folder_ / "out").string(), (folder_ / "err").string());
   std::vector<long> held;
   int status = 0;
   while (waitpid(child, &status, WNOHANG) == 0) {
@@ -259,6 +259,10 @@ TEST_F(View, AFlightOfManyFramesHoldsNoMoreAndMoreMemory) {
   const std::string told{std::istreambuf_iterator<char>(err), {}};
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << told;
   EXPECT_EQ(told, "");
+  std::ifstream out(folder_ / "out");
+  const std::string figures{std::istreambuf_iterator<char>(out), {}};
+  EXPECT_TRUE(figures.starts_with("first picture ")) << figures;
+  EXPECT_NE(figures.find("\nframes " + std::to_string(frames) + '\n'), std::string::npos) << figures;
   ASSERT_GT(held.size(), 8u);
   if (!full) return;
   // The last round against the second.
@@ -284,10 +288,10 @@ TEST(ViewWithoutAScreen, SaysSoInALineAndWhatToDo) {
 }
 
 TEST(ViewOptions, ThatMakeNoSenseAreRefusedBeforeAWindowOpens) {
-  for (const char* words :
-       {"nowhere", "procedural --play", "procedural --projection fisheye", "procedural --frames 0",
-        "procedural --sun 95,0", "procedural --with nothing", "procedural --without sea",
-        "procedural --time 2026-01-01 --sun 1,2", "procedural --detail 3"}) {
+  for (const char* words : {"nowhere", "procedural --play", "procedural --projection fisheye",
+                            "procedural --frames 0", "procedural --sun 95,0", "procedural --with nothing",
+                            "procedural --without sea", "procedural --time 2026-01-01 --sun 1,2",
+                            "procedural --detail 3", "procedural --features /etc/passwd"}) {
     const std::string told = output_of("env -u DISPLAY -u WAYLAND_DISPLAY " + std::string(GLOBE_PROGRAM) +
                                        " view " + words + " 2>&1");
     EXPECT_TRUE(told.starts_with("globe: ")) << words;
