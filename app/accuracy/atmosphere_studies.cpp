@@ -196,14 +196,13 @@ Study map_study(const Known& known, const std::shared_ptr<const effects::AirTabl
                       return meets_ground(look) ? std::nullopt
                                                 : std::optional<dvec3>(mapped(*tables, look, size));
                     }),
-         [tables, ray, texels,
-          time = timed(
-              20,
-              [tables, ray] {
-                for (int k = 0; k < 20; ++k)
-                  keep(effects::air_radiance(kModel, *tables, ray, effects::kSkyPanels).x);
-              },
-              1e3)] { return time() * texels; },
+         [texels, time = timed(
+                      20,
+                      [tables, ray] {
+                        for (int k = 0; k < 20; ++k)
+                          keep(effects::air_radiance(kModel, *tables, ray, effects::kSkyPanels).x);
+                      },
+                      1e3)] { return time() * texels; },
          size == globe::render::AirSteps{}.map});
   }
   return study;

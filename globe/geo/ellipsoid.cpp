@@ -19,7 +19,13 @@ Ellipsoid make_ellipsoid(double a, double f) {
     throw UsageError("ellipsoid", "the flattening " + std::to_string(f) + " is not below 1",
                      "give A,F such as 6378137,1/298.257");
   }
-  return {a, f};
+  const Ellipsoid ellipsoid{a, f};
+  if (!(std::isfinite(ellipsoid.b()) && ellipsoid.b() > 0.0)) {
+    throw UsageError("ellipsoid",
+                     "a polar radius of " + std::to_string(ellipsoid.b()) + " is not a positive length",
+                     "give A,F in metres, such as 6378137,1/298.257");
+  }
+  return ellipsoid;
 }
 
 Geodetic degrees_from_normal(const dvec3& u) {

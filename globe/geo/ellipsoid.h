@@ -41,7 +41,7 @@ inline double small_body_scale(const Ellipsoid& ellipsoid) {
   return ellipsoid.mean_radius() < kSmall_m ? ellipsoid.mean_radius() / kSmall_m : 1.0;
 }
 
-/// Ellipsoid from a (metres, > 0) and f (< 1). Throws UsageError outside these ranges.
+/// Ellipsoid from a (metres, > 0) and f (< 1), with a polar radius that is a length; else throws UsageError.
 Ellipsoid make_ellipsoid(double a, double f);
 
 /// Geodetic normal of a latitude and longitude in degrees.

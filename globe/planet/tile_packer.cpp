@@ -38,7 +38,7 @@ void sort_bytes(const std::byte* row, std::size_t count, std::byte* out) {
 
 struct TilePacker::Deflater {
   struct Free {
-    void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
+    void operator()(libdeflate_compressor* one) const { libdeflate_free_compressor(one); }
   };
   std::unique_ptr<libdeflate_compressor, Free> compressor{libdeflate_alloc_compressor(kDeflateLevel)};
 };

@@ -24,24 +24,25 @@ MapPlace map_place(MapEye eye, vec3 relative) {
   float north = eye.axes.w * relative.z - eye.axes.z * out_by;
   float up = eye.lengths.y + eye.axes.z * relative.z + eye.axes.w * out_by;
   // The vertical through the place meets the axis where tan d = (north + e2 cos(lat)/cos(d) (N sin(lat) - N0 sin(lat0))) / up; each
-  // round takes the error of d times e2.
-  float d = atan(north, up);
-  float w0 = 1.0f - e2 * eye.axes.z * eye.axes.z;
-  for (int k = 0; k < 4; ++k) {
-    float sine = eye.axes.z * cos(d) + eye.axes.w * sin(d);
-    float cosine = eye.axes.w * cos(d) - eye.axes.z * sin(d);
-    float half_sine = sin(0.5f * d);
-    float rise = 2.0f * half_sine * (eye.axes.w * cos(0.5f * d) - eye.axes.z * half_sine);  // of the sine, from the eye's
-    float w = 1.0f - e2 * sine * sine;
-    float root = sqrt(w), root0 = sqrt(w0);
+  // round takes the error of d times e2. Cosine and sine of d are held, for an angle would be turned into them again and again.
+  vec2 turn = vec2(up, north);
+  turn = turn / length(turn);
+  float root0 = sqrt(1.0f - e2 * eye.axes.z * eye.axes.z);
+  for (int k = 0; k < 3; ++k) {
+    float sine = eye.axes.z * turn.x + eye.axes.w * turn.y;
+    float cosine = eye.axes.w * turn.x - eye.axes.z * turn.y;
+    float half_cosine = sqrt(max(0.5f + 0.5f * turn.x, 1e-12f));
+    float half_sine = 0.5f * turn.y / half_cosine;
+    float rise = 2.0f * half_sine * (eye.axes.w * half_cosine - eye.axes.z * half_sine);  // of the sine, from the eye's
+    float root = sqrt(1.0f - e2 * sine * sine);
     float term = eye.lengths.z * rise * (1.0f / root + e2 * eye.axes.z * (sine + eye.axes.z) / (root * root0 * (root + root0)));
-    float c = cos(d);
-    d = abs(c) > 0.02f ? atan(north + e2 * cosine / c * term, up) : d;
+    vec2 next = vec2(up, north + e2 * cosine / turn.x * term);
+    turn = abs(turn.x) > 0.02f ? next / length(next) : turn;
   }
   MapPlace place;
-  place.offset = vec2(atan(aside, eye.lengths.x + away), d);
-  float sine = eye.axes.z * cos(d) + eye.axes.w * sin(d);
-  float cosine = eye.axes.w * cos(d) - eye.axes.z * sin(d);
+  place.offset = vec2(atan(aside, eye.lengths.x + away), atan(turn.y, turn.x));
+  float sine = eye.axes.z * turn.x + eye.axes.w * turn.y;
+  float cosine = eye.axes.w * turn.x - eye.axes.z * turn.y;
   vec2 out_dir = vec2(eye.axes.x * (eye.lengths.x + away) - eye.axes.y * aside,
                       eye.axes.y * (eye.lengths.x + away) + eye.axes.x * aside) / max(axis, 1e-3f);
   place.east = vec3(-out_dir.y, out_dir.x, 0.0f);

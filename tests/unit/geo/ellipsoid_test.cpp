@@ -135,7 +135,7 @@ TEST(GeodeticFromEcef, IsExactAtPolesAndEquator) {
 
 TEST(MakeEllipsoid, RefusesWhatIsNone) {
   for (const auto& [a, f] :
-       {std::pair{0.0, 0.0}, {-1.0, 0.0}, {NAN, 0.0}, {1.0, 1.0}, {1.0, NAN}, {INFINITY, 0.0}})
+       {std::pair{0.0, 0.0}, {-1.0, 0.0}, {NAN, 0.0}, {1.0, 1.0}, {1.0, NAN}, {INFINITY, 0.0}, {1e9, -1e308}})
     EXPECT_THROW(make_ellipsoid(a, f), UsageError) << a << ' ' << f;
   EXPECT_EQ(make_ellipsoid(kWgs84.a, kWgs84.f), kWgs84);
   EXPECT_GT(make_ellipsoid(1.0, -0.1).b(), 1.0);

@@ -440,6 +440,9 @@ TEST(FeatureIndex, RefusesNewerVersionsAndOtherTables) {
   EXPECT_NE(changed("DROP TABLE point; CREATE VIEW point AS SELECT 1").find("damaged"), std::string::npos);
   EXPECT_NE(changed("UPDATE about SET value = -1 WHERE key = 'ellipsoid_a_m'").find("damaged"),
             std::string::npos);
+  EXPECT_NE(changed("UPDATE about SET value = -1e308 WHERE key = 'ellipsoid_f'").find("damaged"),
+            std::string::npos)
+      << "found by fuzzing: a polar radius beyond all numbers";
   EXPECT_NE(changed("DELETE FROM about").find("damaged"), std::string::npos);
   EXPECT_NE(changed("UPDATE point SET lat = 100").find("damaged"), std::string::npos);
 }
