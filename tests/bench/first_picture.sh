@@ -11,7 +11,7 @@ globe=${GLOBE:-$top/build/release/app/globe}
 heights=${GLOBE_DATA:-$top/../shared/data}/earth/earth_etopo20_f32.tif
 mkdir -p "$work"
 if [ -z "${DISPLAY:-}" ]; then
-  command -v xvfb-run >/dev/null || { echo "first_picture.sh: no display: apt-get install xvfb" >&2; exit 1; }
+  command -v xvfb-run >/dev/null || { echo "first_picture.sh: no display: apt-get install xvfb xauth" >&2; exit 1; }
   exec xvfb-run -a -s '-screen 0 1400x900x24' "$0" "$@"
 fi
 shown=(procedural:7)
