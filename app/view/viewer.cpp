@@ -118,7 +118,7 @@ class Loop {
 
   /// As many events as a frame may show: what went down in it goes up in the next, or widgets would miss it.
   bool take_events() {
-    for (globe::gl::WindowEvent& event : session_.window.take_events()) waiting_.push_back(std::move(event));
+    for (const globe::gl::WindowEvent& event : session_.window.take_events()) waiting_.push_back(event);
     if (waiting_.empty()) return false;
     settling_ = kSettling;
     std::set<int> pressed;
