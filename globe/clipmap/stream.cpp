@@ -33,6 +33,9 @@ std::size_t StateUpdate::upload_bytes() const {
 void make_base_ground(const Settings& settings, const planet::Surface& surface) {
   const int level = settings.base_level + settings.shading_levels_at(settings.base_level);
   const int tiles = std::max(1, planet::nodes_per_side(level) / planet::kTileCells);
+  const auto all = static_cast<std::size_t>(planet::kDiamonds * tiles) * static_cast<std::size_t>(tiles);
+  // Its parents are a third as many.
+  if (surface.tile({0, level, 0, 0})->bytes() * (all + all / 3) > surface.cache_bytes()) return;
   tbb::parallel_for(0, planet::kDiamonds * tiles, [&](int k) {
     for (int ti = 0; ti < tiles; ++ti) surface.tile({k / tiles, level, ti, k % tiles});
   });

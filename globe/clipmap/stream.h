@@ -50,7 +50,7 @@ StateUpdate advance(const Settings& settings, const planet::Surface& surface, co
                     const ClipmapState* before, Stride stride, int fills = 2);
 
 /// Makes all the ground that a base level is shaded by, for the surface to hold, on all cores: for the time
-/// before there is anything to draw with. REQUIRES: the surface's cache holds them, some 30 MB.
+/// before there is anything to draw with. Nothing where the surface's cache would not hold it.
 void make_base_ground(const Settings& settings, const planet::Surface& surface);
 
 /// Levels of a state, from its base on, whose regions are the right ones for a nadir. Regions move only when

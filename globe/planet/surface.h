@@ -154,6 +154,8 @@ class Surface {
     return has_bare_floor() ? height_m * exaggeration_ : drawn_height(height_m);
   }
   double exaggeration() const { return exaggeration_; }
+  /// That tiles are kept in.
+  std::size_t cache_bytes() const { return cache_bytes_; }
   /// Length of a level-0 edge along the mean sphere, metres; a level-L edge is about 2^-L of it.
   double root_edge() const;
 
